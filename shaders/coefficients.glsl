@@ -6,8 +6,9 @@
  *   lmp_sphere_project       the LMP_SH_COUNT coefficients of a sphere light
  *   lmp_sh_eval              Y_lm of a direction
  *   lmp_cap_project          the coefficients of a lmp_cap
- *   lmp_shade_coefficients   radiance to the viewer under all lights: O(LMP_BANDS²) a light, the same
- *                            as by lmp_shade_zonal */
+ *   lmp_lobe_diffuse         coefficients lambda_l of the cosine: max(n.w, 0): lambda_l Y_lm(n)
+ *   lmp_shade_coefficients   radiance to the viewer under all lights: O(LMP_BANDS²) per light, that of
+ *                            lmp_shade_zonal but for the diffuse lobe's bands and window */
 #ifndef LAMPION_COEFFICIENTS_GLSL
 #define LAMPION_COEFFICIENTS_GLSL
 
@@ -86,6 +87,22 @@ void lmp_cap_project(lmp_cap cap, out float sh[LMP_SH_COUNT]) {
 /* Coefficients at a point of a sphere of radiance 1. */
 void lmp_sphere_project(vec4 sphere, vec3 from, out float sh[LMP_SH_COUNT]) {
     lmp_cap_project(lmp_cap_of_sphere(sphere, from), sh);
+}
+
+/* lambda_l of max(t, 0): a diffuse lobe's coefficients are lambda_l Y_lm(normal). */
+void lmp_lobe_diffuse(out float lambda[LMP_BANDS]) {
+    float even = LMP_PI / 4.0;
+    lambda[0] = LMP_PI;
+    if (LMP_BANDS > 1)
+        lambda[LMP_BAND(1)] = LMP_PI * 2.0 / 3.0;
+#define LMP_STEP(l)                                                                                \
+    if (l < LMP_BANDS) {                                                                           \
+        lambda[LMP_BAND(l)] = l % 2 == 0 ? even : 0.0;                                             \
+        if (l % 2 == 0)                                                                            \
+            even *= -float(l - 1) / float(l + 4);                                                  \
+    }
+    LMP_FOR_BANDS(LMP_STEP)
+#undef LMP_STEP
 }
 
 #ifdef LMP_LIGHT_COUNT
@@ -184,7 +201,8 @@ vec3 lmp_shade_some_coefficients(lmp_surface surface, lmp_lobes lobes) {
                            LMP_SUM(lobes.weight, norm * power * p * glossy[LMP_BAND(l)]);          \
         if (m == 0) {                                                                              \
             LMP_MONIC(l, m, 1.0, q, q1, q2)                                                        \
-            diffuse_response += sum[LMP_HALF_INDEX(l, m)] * (norm * q * diffuse[LMP_BAND(l)]);     \
+            diffuse_response += sum[LMP_HALF_INDEX(l, m)] * \
+                                (norm * q * lmp_window_weight(l) * diffuse[LMP_BAND(l)]);          \
         }                                                                                          \
     }
 #define LMP_COLUMN(m)                                                                              \

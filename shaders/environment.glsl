@@ -3,7 +3,7 @@
  * and what is seen of it. */
 
 /* red, green, blue of coefficient l² + l + m, windowed: surroundings.w of them; as many that are
- * not; then, in x, the matrices of a quarter turn about x. surroundings.x: bands */
+ * not, for tables and the diffuse lobe; then, in x, the matrices of a quarter turn about x. surroundings.x: bands */
 layout(std430, binding = SHARED_ENVIRONMENT) readonly restrict buffer environment_block {
     vec4 environment_sh[];
 };
@@ -17,10 +17,10 @@ int environment_tilts() {
 }
 layout(binding = SHARED_BACKDROP) uniform sampler2D backdrop_map;
 
-/* A Phong lobe of integral 1 around an axis; with exponent 1 it is the diffuse one. Its factors
- * fall by two bands at a time, lambda_l = lambda_(l-2) (e - l + 2) / (e + l + 1), and each column m
- * begins where they stand at l = m. */
-vec3 environment_response(vec3 axis, float exponent) {
+/* A Phong lobe of integral 1 around an axis, under the coefficients from `first` on; with exponent 1
+ * it is the diffuse one. Its factors fall by two bands at a time, lambda_l = lambda_(l-2)
+ * (e - l + 2) / (e + l + 1), and each column m begins where they stand at l = m. */
+vec3 environment_response(int first, vec3 axis, float exponent) {
     int bands = int(surroundings.x);
     vec3 sum = vec3(0.0);
     float diagonal = 0.28209479, c = 1.0, s = 0.0;
@@ -29,7 +29,7 @@ vec3 environment_response(vec3 axis, float exponent) {
         float q0 = 0.0, q1 = diagonal, before = lambda0, next = lambda1;
         vec3 cosine = vec3(0.0), sine = vec3(0.0);
         for (int l = m; l < bands; l++) {
-            int at = l * l + l;
+            int at = first + l * l + l;
             cosine += environment_sh[at + m].rgb * (q1 * before);
             if (m > 0)
                 sine += environment_sh[at - m].rgb * (q1 * before);
@@ -60,10 +60,15 @@ vec3 environment_response(vec3 axis, float exponent) {
 vec3 environment_shade(lmp_surface surface, lmp_lobes lobes) {
     if (surroundings.x == 0.0)
         return vec3(0.0);
-    vec3 sum = lobes.diffuse * environment_response(surface.normal, 1.0);
+#ifdef SHADE_WINDOWS_DIFFUSE
+    int first = 0;
+#else
+    int first = environment_whole();
+#endif
+    vec3 sum = lobes.diffuse * environment_response(first, surface.normal, 1.0);
     do {
         for (int k = 0; k < LMP_LOBES; k++)
-            sum += lobes.weight[k] * environment_response(lobes.axis[k], lobes.exponent[k]);
+            sum += lobes.weight[k] * environment_response(0, lobes.axis[k], lobes.exponent[k]);
     } while (lmp_lobes_next(lobes));
     return max(sum, vec3(0.0));
 }

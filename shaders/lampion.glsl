@@ -7,7 +7,7 @@
  * Define before including
  *   LMP_BANDS                1 … 32, an integer literal: degrees l = 0 … LMP_BANDS-1
  *   LMP_WINDOW               LMP_WINDOW_NONE (default), LMP_WINDOW_HANNING, LMP_WINDOW_LANCZOS:
- *                            damps the ringing of the material's truncated series
+ *                            damps the ringing of the glossy lobes' truncated series
  *   LMP_WINDOW_SIZE          the band whose weight falls to 0; default LMP_BANDS
  *   LMP_WINDOW_WEIGHTS       in place of these two, LMP_BANDS weights separated by commas
  * and, to have the lmp_shade_… functions,
@@ -44,7 +44,8 @@
  * What there is
  *   lmp_shade_zonal          radiance to the viewer under all lights: O(LMP_BANDS) a light
  *   lmp_lobes_of, _next      what a surface reflects by, for passes of your own
- *   lmp_lobe_diffuse, _phong coefficients lambda_l of lobes: lobe around w: lambda_l Y_lm(w)
+ *   lmp_cap_irradiance       irradiance under a cap, by its closed form
+ *   lmp_lobe_phong           coefficients lambda_l of lobes: lobe around w: lambda_l Y_lm(w)
  *   lmp_cap_of_light, lmp_cap_series, lmp_window_weight, lmp_view_frame: their parts
  * After this file, coefficients.glsl has the coefficients themselves, for probes and the paper's
  * method, and preintegrated_lobe.glsl lmp_shade_preintegrated, of one cost for any bands.
@@ -269,20 +270,32 @@ lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_metallic_roughness material) {
 }
 #endif
 
-/* lambda_l of max(t, 0), windowed: a diffuse lobe's coefficients are lambda_l Y_lm(normal). */
-void lmp_lobe_diffuse(out float lambda[LMP_BANDS]) {
-    float even = LMP_PI / 4.0;
-    lambda[0] = LMP_PI;
-    if (LMP_BANDS > 1)
-        lambda[LMP_BAND(1)] = lmp_window_weight(1) * LMP_PI * 2.0 / 3.0;
-#define LMP_STEP(l)                                                                                \
-    if (l < LMP_BANDS) {                                                                           \
-        lambda[LMP_BAND(l)] = l % 2 == 0 ? lmp_window_weight(l) * even : 0.0;                      \
-        if (l % 2 == 0)                                                                            \
-            even *= -float(l - 1) / float(l + 4);                                                  \
-    }
-    LMP_FOR_BANDS(LMP_STEP)
-#undef LMP_STEP
+/* B of 0 <= m² <= 1, where the arctangent of m is m - m³ B (src/kernels/horizon.h, the same numbers). */
+float lmp_horizon_b(float m2) {
+    float b = ((0.00563867157 * m2 - 0.0275278129) * m2 + 0.0639356673) * m2 - 0.102131978;
+    return ((b * m2 + 0.141221911) * m2 - 0.199864447) * m2 + 0.333330035;
+}
+
+/* The cosine u of a cap's axis with a normal, clipped by the horizon: a cap of radiance L and half
+ * angle a gives pi L sin²a times this; t = 1 - cos a, 0 … 1. Where the horizon cuts it, q² = sin²a - u²,
+ *     pi f = u atan2(q, -u cos a) + (atan2(q, cos a) - q cos a) / sin²a. */
+float lmp_horizon_cosine(float u, float t) {
+    float sin2 = t * (2.0 - t), cosine = 1.0 - t;
+    if (u * u >= sin2)
+        return max(u, 0.0);
+    float q = sqrt(sin2 - u * u), along = abs(u) * cosine;
+    float n = min(along, q) / max(max(along, q), 1e-30), arc = n - n * n * n * lmp_horizon_b(n * n);
+    float more = q < along ? 0.5 * LMP_PI - arc : arc, around = 0.5 * LMP_PI + (u < 0.0 ? -more : more);
+    float m = min(q, cosine) / max(max(q, cosine), 1e-30), b = lmp_horizon_b(m * m);
+    float rest = cosine < q ? (0.5 * LMP_PI - (m - m * m * m * b) - q * cosine) / sin2
+                            : m - m * (m * m / sin2 * b);
+    return (u * around + rest) / LMP_PI;
+}
+
+/* Irradiance under a cap of radiance 1; of more than a hemisphere, ambient light less the rest. */
+float lmp_cap_irradiance(lmp_cap cap, vec3 normal) {
+    float ambient = cap.base > 2.0 && cap.strength <= 0.0 ? 1.0 : 0.0;
+    return LMP_PI * (ambient + cap.strength * lmp_horizon_cosine(dot(cap.axis, normal), cap.one_minus_cos));
 }
 
 /* lambda_l of (e+1)/(2 pi) max(t, 0)^e, windowed; exponent e >= 0, of one lobe or of each. */
@@ -370,28 +383,23 @@ bool lmp_light_lit(int lmp_i, vec3 lmp_p) {
     return LMP_LIGHT_LIT(lmp_i, lmp_p);
 }
 
-/* Radiance to the viewer under all lights, by the addition theorem: O(LMP_BANDS) a light.
+/* Radiance to the viewer under all lights: of the diffuse lobe by the closed form of irradiance, of
+ * Phong lobes by the addition theorem, O(LMP_BANDS) per light:
  *
  *     sum_l (2l+1)/4 lambda_l R_l P_l(axis.lobe)
  *
- * for all lobes in one pass. P_l is carried monic (p_l = u p_(l-1) - b_l p_(l-2)) and the
+ * for all of them in one pass. P_l is carried monic (p_l = v p_(l-1) - b_l p_(l-2)) and the
  * differences of R_l scaled, which saves four products a band; the scales are in the weights. */
 vec3 lmp_shade_some_zonal(lmp_surface surface, lmp_lobes lobes) {
-    float diffuse[LMP_BANDS];
     LMP_EACH glossy[LMP_BANDS];
-    lmp_lobe_diffuse(diffuse);
     lmp_lobe_phong(lobes.exponent, glossy);
-    float leading = 1.0; /* coefficient of u^l in P_l */
-    diffuse[0] *= 0.25 / LMP_PI;
+    float leading = 1.0; /* coefficient of v^l in P_l */
     glossy[0] *= 0.25;
-    if (LMP_BANDS > 1) {
-        diffuse[LMP_BAND(1)] *= 0.75 / LMP_PI;
+    if (LMP_BANDS > 1)
         glossy[LMP_BAND(1)] *= 0.75;
-    }
 #define LMP_STEP(l)                                                                                \
     if (l < LMP_BANDS) {                                                                           \
         leading *= float(2 * l - 1) / float(l);                                                    \
-        diffuse[LMP_BAND(l)] *= float(2 * l + 1) * 0.25 / LMP_PI * leading;                        \
         glossy[LMP_BAND(l)] *= float(2 * l + 1) * 0.25 * leading;                                  \
     }
     LMP_FOR_BANDS(LMP_STEP)
@@ -402,32 +410,24 @@ vec3 lmp_shade_some_zonal(lmp_surface surface, lmp_lobes lobes) {
         if (!lmp_light_lit(i, surface.position))
             continue;
         lmp_cap cap = lmp_light_cap(i, surface.position);
-        float u = dot(cap.axis, surface.normal), r = 1.0, difference = 0.0;
-        float p0 = 1.0, p1 = u, p2, d = 0.0;
+        float r = 1.0, difference = 0.0;
         LMP_EACH v = LMP_DOT(cap.axis, lobes.axis), q0 = LMP_EACH(1.0), q1 = v, q2, g = LMP_EACH(0.0);
-        if (LMP_BANDS > 1) {
-            d = diffuse[LMP_BAND(1)] * u;
+        if (LMP_BANDS > 1)
             g = glossy[LMP_BAND(1)] * v;
-        }
         /* difference holds -(l+1)/(2l-1) times R_l - R_(l-1) */
 #define LMP_STEP(l)                                                                                \
     if (l < LMP_BANDS) {                                                                           \
         difference = float((l - 2) * (2 * l - 3)) / float(l * (2 * l - 1)) * difference +          \
                      cap.one_minus_cos * r;                                                            \
         r -= float(2 * l - 1) / float(l + 1) * difference;                                         \
-        p2 = u * p1 - float((l - 1) * (l - 1)) / float((2 * l - 1) * (2 * l - 3)) * p0;            \
         q2 = v * q1 - float((l - 1) * (l - 1)) / float((2 * l - 1) * (2 * l - 3)) * q0;            \
-        p0 = p1;                                                                                   \
-        p1 = p2;                                                                                   \
         q0 = q1;                                                                                   \
         q1 = q2;                                                                                   \
-        if (l % 2 == 0)                                                                            \
-            d += diffuse[LMP_BAND(l)] * r * p1;                                                    \
         g += glossy[LMP_BAND(l)] * r * q1;                                                         \
     }
         LMP_FOR_BANDS(LMP_STEP)
 #undef LMP_STEP
-        d = diffuse[0] * cap.base + cap.strength * d;
+        float d = lmp_cap_irradiance(cap, surface.normal) / LMP_PI;
         g = glossy[0] * cap.base + cap.strength * g;
         sum += lmp_light_color(i, surface.position) * (lobes.diffuse * d + LMP_SUM(lobes.weight, g));
     }

@@ -44,9 +44,10 @@ vec3 paper_shade(lmp_surface surface, lmp_lobes lobes) {
     lmp_sh_eval(surface.normal, sh);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
-        diffuse_response += diffuse[LMP_BAND(l)] * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];     \
+        float factor = lmp_window_weight(l) * diffuse[LMP_BAND(l)];                                \
+        diffuse_response += factor * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];                   \
         if (m > 0)                                                                                 \
-            diffuse_response += diffuse[LMP_BAND(l)] * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)]; \
+            diffuse_response += factor * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)];             \
     }
     LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_ROW

@@ -87,13 +87,13 @@ float lmp_preintegrated_lobe_response(lmp_lobe_position position, lmp_cap cap, f
 
 /* lmp_shade_zonal, within its error. */
 vec3 lmp_shade_some_preintegrated(lmp_surface surface, lmp_lobes lobes) {
-    lmp_lobe_position diffuse = lmp_preintegrated_lobe_lookup(1.0), specular[LMP_LOBES];
+    lmp_lobe_position specular[LMP_LOBES];
     for (int k = 0; k < LMP_LOBES; k++)
         specular[k] = lmp_preintegrated_lobe_lookup(LMP_LOBE(lobes.exponent, k));
     vec3 sum = vec3(0.0);
     for (int i = 0; i < lmp_light_count(); i++) {
         lmp_cap cap = lmp_light_cap(i, surface.position);
-        vec3 reflected = lobes.diffuse * lmp_preintegrated_lobe_response(diffuse, cap, dot(cap.axis, surface.normal));
+        vec3 reflected = lobes.diffuse * (lmp_cap_irradiance(cap, surface.normal) / LMP_PI);
         for (int k = 0; k < LMP_LOBES; k++)
             reflected += LMP_LOBE(lobes.weight, k) *
                          lmp_preintegrated_lobe_response(specular[k], cap, dot(cap.axis, LMP_LOBE(lobes.axis, k)));

@@ -31,7 +31,8 @@ const method_row method_table[METHODS_TIMED] = {
                               .bands_max = BANDS(GPU_COEFFICIENTS_MAX, LMP_BANDS_MAX),
                               .tabulated = true,
                               .shader = "shade.comp",
-                              .function = "lmp_shade_coefficients" },
+                              .function = "lmp_shade_coefficients",
+                              .defines = "#define SHADE_WINDOWS_DIFFUSE\n" },
     [METHOD_PREINTEGRATED] = { .name = "preintegrated",
                                .help = "costs the same at any number of bands",
                                .method = LMP_SHADE_PREINTEGRATED,
@@ -71,7 +72,8 @@ const method_row method_table[METHODS_TIMED] = {
                              .reads = METHOD_READS_TABULATED_Z,
                              .shader = "shade.comp",
                              .function = "lmp_shade_coefficients",
-                             .defines = "#define SHADE_TABULATED_Z\n" },
+                             .defines = "#define SHADE_TABULATED_Z\n"
+                                        "#define SHADE_WINDOWS_DIFFUSE\n" },
 };
 
 const char *const *method_window_names(void) {

@@ -133,6 +133,14 @@ LMP_API void lmp_light_project(int bands, const lmp_light *lights, size_t count,
 LMP_API void lmp_light_project_channels(int bands, const lmp_light *lights, size_t count,
                                         lmp_vec3 point, float *red, float *green, float *blue);
 
+/* Irradiance, W·m⁻², at `point` of a surface that faces `normal`, of the sum of `count` lights: no
+ * series but the closed form of a cap that the surface's horizon may cut, exact to 1e-6 of what the
+ * lights give a surface that faces them. Ambient light counts pi times.
+ *
+ * normal must be unit; count may be 0 */
+LMP_API lmp_rgb lmp_light_irradiance(const lmp_light *lights, size_t count, lmp_vec3 point,
+                                     lmp_vec3 normal);
+
 /* --- batches (sh.h) -----------------------------------------------------------------------------
  * Distances and radii are 0 or in 1e-15 … 1e15; geometry is otherwise free, as above. */
 

@@ -4,8 +4,8 @@
  *
  * The integral of a Phong lobe, truncated to n bands and windowed, over a spherical cap of half
  * angle a depends on three numbers: the exponent e, a, and the angle g between the axes of lobe and
- * cap. A preintegrated lobe holds it for every e, a, g at one n and filter; diffuse reflection is
- * the lobe of exponent 1. Reading costs the same at 5 bands and at 128.
+ * cap. A preintegrated lobe holds it for every e, a, g at one n and filter. Reading costs the same
+ * at 5 bands and at 128.
  *
  * How it is stored
  *   slices   exponents e_k. Cell k holds slices k and k+1, value by value interleaved; between them

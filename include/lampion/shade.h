@@ -6,8 +6,10 @@
  *
  *     L_o = ∫ L(w) k(w) dw,   k = f_r(w, v) max(n·w, 0) in n bands, windowed,
  *
- * n the normal and v the view of the surface; the light is not windowed. Of the paper's two lobes
- * (paper §4.1), with r = 2 (n·v) n - v the mirror direction,
+ * n the normal and v the view of the surface; the light is not windowed. The diffuse part of k
+ * needs no bands: a cap that the horizon may cut gives an irradiance of closed form
+ * (lmp_light_irradiance), which every method takes but LMP_SHADE_COEFFICIENTS, the paper's. Of the
+ * paper's two lobes (paper §4.1), with r = 2 (n·v) n - v the mirror direction,
  *
  *     k(w) = diffuse/pi max(n·w, 0)  +  specular (e+1)/(2 pi) max(r·w, 0)^e.
  *
@@ -103,13 +105,15 @@ typedef struct lmp_material {
     const lmp_preintegrated_brdf *preintegrated;
 } lmp_material;
 
-/* How the sum is taken. They differ by rounding, but that a preintegrated lobe or BRDF has an error
- * of its own (preintegrated.h). */
+/* How the sum is taken. Of specular lobes and tables the results differ by rounding, except that a
+ * preintegrated lobe or BRDF has an error of its own (preintegrated.h). Of the diffuse lobe they
+ * are exact, except that LMP_SHADE_COEFFICIENTS truncates it to n bands and windows it, as the
+ * paper does (docs/accuracy.md has the error). */
 typedef enum lmp_shade_method {
-    LMP_SHADE_ZONAL = 0,     /* the addition theorem: O(n) a light */
+    LMP_SHADE_ZONAL = 0,     /* the addition theorem: O(n) per light */
     LMP_SHADE_COEFFICIENTS,  /* the paper's: the lights' n² coefficients, then a dot product */
-    LMP_SHADE_PREINTEGRATED, /* lobes read from settings.lobe, tables from material.preintegrated:
-                                a cost that the bands do not change */
+    LMP_SHADE_PREINTEGRATED, /* specular lobes read from settings.lobe, tables from
+                                material.preintegrated: a cost that the bands do not change */
 } lmp_shade_method;
 #define LMP_SHADE_METHODS (LMP_SHADE_PREINTEGRATED + 1) /* of the last one */
 
@@ -184,9 +188,10 @@ typedef struct lmp_environment {
 } lmp_environment;
 
 /* Reflected radiance, W·sr⁻¹·m⁻². Of the settings, bands and window count, those of settings.lobe
- * under LMP_SHADE_PREINTEGRATED; all methods give the same, for a lobe of n bands takes n² terms
- * whatever the light is. Of LMP_MATERIAL_TABLE the table is read, by its first
- * LMP_ENVIRONMENT_TABLE_BANDS bands; LMP_MATERIAL_PREINTEGRATED has none, and reflects nothing.
+ * under LMP_SHADE_PREINTEGRATED. All methods give the same, for a lobe of n bands takes n² terms
+ * whatever the light is, except that LMP_SHADE_COEFFICIENTS alone windows the diffuse lobe. Of
+ * LMP_MATERIAL_TABLE the table is read, by its first LMP_ENVIRONMENT_TABLE_BANDS bands;
+ * LMP_MATERIAL_PREINTEGRATED has none, and reflects nothing.
  *
  * settings may be NULL */
 #define LMP_ENVIRONMENT_TABLE_BANDS 16

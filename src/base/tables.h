@@ -51,11 +51,6 @@ extern const double lmp_table_zonal_scale[2][LMP_BANDS_MAX];
 extern const float lmp_table_zonal_cap[LMP_BANDS_MAX],
     lmp_table_zonal_lobe[LMP_BANDS_MAX]; /* c_l */
 
-/* Two steps of P_l at once, entry l/2 of even l: P_l = (a u² - b) P_(l-2) - c P_(l-4). */
-extern const float lmp_table_even_a[2][LMP_BANDS_MAX / 2];
-extern const float lmp_table_even_b[2][LMP_BANDS_MAX / 2];
-extern const float lmp_table_even_c[2][LMP_BANDS_MAX / 2];
-
 /* Y_l0(z) = sqrt((2l+1)/(4 pi)). */
 extern const float lmp_table_pole[LMP_BANDS_MAX];
 

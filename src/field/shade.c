@@ -129,8 +129,8 @@ static size_t add_near(const field_shading *shading, const uint32_t *found, size
         chunk->ambient[1] += ambient.g;
         chunk->ambient[2] += ambient.b;
     }
-    lmp_kernels_get()->shade_zonal(shading->settings.bands, shading->window, shading->diffuse,
-                                   &chunk->surfaces, lights, taken, chunk->count, &chunk->sums);
+    lmp_kernels_get()->shade_zonal(shading->settings.bands, shading->window, &chunk->surfaces,
+                                   lights, taken, chunk->count, &chunk->sums);
     return taken;
 }
 
@@ -146,31 +146,36 @@ static void shade_near(const field_shading *shading, const field_blocks *blocks,
 
 /* --- surfaces --------------------------------------------------------------------------------- */
 
-/* All the light at a surface as its surroundings. */
-static __attribute__((noinline)) lmp_rgb shade_surroundings(const field_shading *shading,
-                                                            const lmp_material *material,
-                                                            const lmp_surface *surface) {
-    float sh[3 * LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX];
-    const lmp_environment light = { sh, shading->settings.bands };
-    lmp_field_rows(shading->field, &surface->position, 1, sh);
-    return lmp_shade_environment(&shading->settings, material, surface, &light);
+static bool has_lobes(const lmp_material *material) {
+    return material->kind == LMP_MATERIAL_LOBES ||
+           material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS;
 }
 
-/* A surface outside the grid, under layers or of a material without lobes. */
+/* All the light at a surface as its surroundings: what a table reads. */
+static __attribute__((noinline)) void shade_surroundings(const field_shading *shading,
+                                                         const lmp_surfaces *one, lmp_rgb *color) {
+    float sh[3 * LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX];
+    const lmp_environment light = { sh, shading->settings.bands };
+    const lmp_vec3 point = lmp_vec3_element(&one->position, 0);
+    lmp_field_rows(shading->field, &point, 1, sh);
+    lmp_shade_environment_bare_n(&shading->settings, one, 1, &light, 0, &color->r);
+}
+
+/* A surface outside the grid, or of a material without lobes. */
 static void shade_one(const field_shading *shading, const lmp_surfaces *surfaces, size_t i,
                       size_t stride, float *rgb) {
     const lmp_field *field = shading->field;
     const lmp_material *material = lmp_material_at(surfaces, i);
     const lmp_surface surface = lmp_surface_at(surfaces, i);
-    const bool preintegrated = material->kind == LMP_MATERIAL_PREINTEGRATED ||
-                               (material->kind == LMP_MATERIAL_TABLE && !material->table);
+    const lmp_surfaces one = lmp_surfaces_of(material, &surface);
     lmp_rgb color;
-    if (preintegrated) {
-        lmp_shade_settings settings = shading->settings;
-        settings.method = LMP_SHADE_PREINTEGRATED;
-        color = lmp_shade(&settings, material, &surface, field->lights, field->info.light_count);
+    if (material->kind == LMP_MATERIAL_TABLE && material->table) {
+        shade_surroundings(shading, &one, &color);
     } else {
-        color = shade_surroundings(shading, material, &surface);
+        lmp_shade_settings settings = shading->settings;
+        if (!has_lobes(material))
+            settings.method = LMP_SHADE_PREINTEGRATED;
+        lmp_shade_bare_n(&settings, &one, 1, field->lights, field->info.light_count, 0, &color.r);
     }
     memcpy((char *)rgb + i * stride, &color, sizeof color);
 }
@@ -198,15 +203,13 @@ enum { CELLS = 1 << 20 };
 /* Surfaces of one number of lobes: 1, 3 or 5. */
 enum { KINDS = LMP_KERNEL_LOBES_MAX / 2 + 1 };
 
-/* Whether the field and zonal sums have all that a surface reflects; then a key of its lobes, its
- * block and its cell, by which it is sorted. */
-static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size_t i,
-                      uint32_t *key) {
+/* Whether a surface has lobes and lies inside the grid; then a key of its lobes, its block and its
+ * cell, by which it is sorted. */
+static bool find_key(const lmp_field *field, const lmp_surfaces *surfaces, size_t i,
+                     uint32_t *key) {
     const lmp_material *material = lmp_material_at(surfaces, i);
     field_place place;
-    if ((material->kind != LMP_MATERIAL_LOBES &&
-         material->kind != LMP_MATERIAL_METALLIC_ROUGHNESS) ||
-        lmp_is_over(material, SHADE_OVER_FIBERS) || lmp_is_over(material, SHADE_OVER_COAT) ||
+    if (!has_lobes(material) ||
         !lmp_field_find(field, lmp_vec3_element(&surfaces->position, i), &place))
         return false;
     const int lobes = lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, i),
@@ -230,7 +233,7 @@ static __attribute__((noinline)) void sort(const lmp_field *field, const lmp_sur
     size_t sorted = 0, others = count;
     memset(kinds, 0, KINDS * sizeof *kinds);
     for (size_t i = 0; i < count; i++)
-        if (has_lobes(field, surfaces, first + i, &keys[i])) {
+        if (find_key(field, surfaces, first + i, &keys[i])) {
             order[sorted++] = (uint16_t)i;
             kinds[keys[i] / CELLS]++;
         } else
@@ -250,26 +253,36 @@ static field_shading prepare(const lmp_shade_settings *settings, const lmp_field
     return shading;
 }
 
-void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_field *field,
-                       const lmp_surfaces *surfaces, size_t count, size_t rgb_stride, float *rgb) {
-    const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
-    const field_shading shading = prepare(settings, field);
+/* Without layers; returns which lie over any of them. */
+static unsigned shade_bare(const void *light, const lmp_surfaces *surfaces, size_t count,
+                           size_t stride, float *rgb) {
+    const field_shading *shading = light;
+    unsigned overs = 0;
     assert(lmp_are_surfaces(surfaces, count));
     assert(stride >= sizeof(lmp_rgb) && stride % sizeof(float) == 0);
+    for (size_t i = 0; i < count; i++)
+        overs |= lmp_shade_overs(lmp_material_at(surfaces, i));
     for (size_t first = 0; first < count; first += FIELD_SORTED) {
         const size_t some = count - first < FIELD_SORTED ? count - first : FIELD_SORTED;
         uint16_t order[FIELD_SORTED];
         size_t kinds[KINDS], next = 0;
-        sort(field, surfaces, first, some, order, kinds);
+        sort(shading->field, surfaces, first, some, order, kinds);
         for (int k = 0; k < KINDS; k++) {
             const size_t end = next + kinds[k], fit = lmp_shade_capacity(2 * k + 1);
             for (size_t taken; next < end; next += taken) {
                 taken = fit < FIELD_CHUNK ? fit : FIELD_CHUNK;
                 taken = end - next < taken ? end - next : taken;
-                shade_alike(&shading, surfaces, 2 * k + 1, first, order + next, taken, stride, rgb);
+                shade_alike(shading, surfaces, 2 * k + 1, first, order + next, taken, stride, rgb);
             }
         }
         for (; next < some; next++)
-            shade_one(&shading, surfaces, first + order[next], stride, rgb);
+            shade_one(shading, surfaces, first + order[next], stride, rgb);
     }
+    return overs;
+}
+
+void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_field *field,
+                       const lmp_surfaces *surfaces, size_t count, size_t rgb_stride, float *rgb) {
+    const field_shading shading = prepare(settings, field);
+    lmp_shade_layered(shade_bare, &shading, true, surfaces, count, rgb_stride, rgb);
 }

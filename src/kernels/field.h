@@ -251,11 +251,8 @@ static field_of_bands *const field_bands[LMP_KERNEL_FIELD_BANDS_MAX] = {
 static void kernel_shade_field(int bands, const float *window, const float *diffuse,
                                const lmp_kernel_surfaces *surfaces, const lmp_kernel_in *sh,
                                size_t count, const lmp_kernel_accumulated *accumulated) {
-    float factors[LMP_KERNEL_FIELD_BANDS_MAX];
-    for (int l = 0; l < bands; l++)
-        factors[l] = window[l] * diffuse[l];
     for (size_t e = 0; e < count; e += LMP_LANES)
-        FIELD_LOBES(bands, window, factors, surfaces, e, sh, accumulated);
+        FIELD_LOBES(bands, window, diffuse, surfaces, e, sh, accumulated);
 }
 
 #endif

@@ -294,21 +294,19 @@ typedef struct lmp_kernels {
     void (*lobe)(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,
                  const lmp_kernel_out *out);
-    /* Adds what the lobes, truncated to `bands` bands with window[l] and diffuse[l] the factors of
-     * the diffuse lobe of integral 1, reflect of the lights but their ambient light. */
-    void (*shade_zonal)(int bands, const float *window, const float *diffuse,
-                        const lmp_kernel_surfaces *surfaces, const lmp_packed_light *lights,
-                        size_t light_count, size_t count,
+    /* Adds what the diffuse lobe of integral 1, exact, and Phong's, truncated to `bands` bands with
+     * window[l], reflect of the lights but their ambient light. */
+    void (*shade_zonal)(int bands, const float *window, const lmp_kernel_surfaces *surfaces,
+                        const lmp_packed_light *lights, size_t light_count, size_t count,
                         const lmp_kernel_accumulated *accumulated);
     /* The same of light given by its coefficients at each surface, 3 bands^2 values, planar and
-     * readable like planes. */
+     * readable like planes; diffuse[l] are the factors of the diffuse lobe. */
     void (*shade_field)(int bands, const float *window, const float *diffuse,
                         const lmp_kernel_surfaces *surfaces, const lmp_kernel_in *sh, size_t count,
                         const lmp_kernel_accumulated *accumulated);
-    /* As shade_zonal from a preintegrated lobe; `diffuse` is one position, LMP_KERNEL_LANES_MAX
-     * times, `specular` are those of each Phong lobe. */
+    /* As shade_zonal, Phong lobes from a preintegrated lobe; `specular` are the positions of each.
+     */
     void (*shade_preintegrated_lobe)(const lmp_kernel_preintegrated_lobe *lobe,
-                                     const lmp_kernel_lobe_positions *diffuse,
                                      const lmp_kernel_lobe_positions *specular,
                                      const lmp_kernel_surfaces *surfaces,
                                      const lmp_packed_light *lights, size_t light_count,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* preintegrated_lobe.h - what the lobes of many surfaces reflect of many lights, read from a table
- * of B-spline coefficients (lampion/preintegrated.h): lanes are surfaces. */
+/* preintegrated_lobe.h - what the lobes of many surfaces reflect of many lights: of Phong lobes
+ * read from a table of B-spline coefficients (lampion/preintegrated.h), of the diffuse one by its
+ * closed form. Lanes are surfaces. */
 #ifndef LAMPION_KERNELS_PREINTEGRATED_LOBE_H
 #define LAMPION_KERNELS_PREINTEGRATED_LOBE_H
 
@@ -112,23 +113,40 @@ LMP_INLINE void lobe_lanes_load(const lmp_kernel_preintegrated_lobe *lobe,
     lanes->angle = vf_load(positions->lobe_angle + e);
 }
 
-/* What a light gives two lobes, by the cosines of its axis with theirs: the mean over the cap,
- * reading / (cap's + lobe's angle), times the cap's, with one division for both. */
-LMP_INLINE void lobe_pair(const lobe_lanes *first_lobe, const lobe_lanes *second_lobe,
-                          const shade_direction *direction, vf u, vf v, vf responses[2]) {
-    /* A NaN becomes 0, which reads inside the table. */
-    const vf t = vf_max(direction->t, vf_set(0)), a = lmp_lookup_arc(t),
-             covered = 2 * LMP_KERNEL_PI * t;
-    const vf one = lobe_read(first_lobe, lmp_lookup_acos(u), a);
-    const vf other = lobe_read(second_lobe, lmp_lookup_acos(v), a);
-    const vf first = covered + first_lobe->angle, second = covered + second_lobe->angle;
-    const vf each = 2 * LMP_KERNEL_PI * direction->weight / (first * second);
-    responses[0] = one * second * each;
-    responses[1] = other * first * each;
-    if (__builtin_expect(direction->is_ambient, 0)) {
-        responses[0] = responses[0] + direction->ambient;
-        responses[1] = responses[1] + direction->ambient;
-    }
+/* A cap as the table is asked for it: its angle, the solid angle, 2 pi (1 - cos a), and the weight
+ * of a response. A NaN becomes 0, which reads inside the table. */
+typedef struct lobe_cap {
+    vf angle, covered, weight;
+} lobe_cap;
+
+LMP_INLINE lobe_cap lobe_cap_of(const shade_direction *direction) {
+    const vf t = vf_max(direction->t, vf_set(0));
+    return (lobe_cap) { lmp_lookup_arc(t), 2 * LMP_KERNEL_PI * t,
+                        2 * LMP_KERNEL_PI * direction->weight };
+}
+
+LMP_INLINE vf lobe_ambient(const shade_direction *direction, vf response) {
+    return __builtin_expect(direction->is_ambient, 0) ? response + direction->ambient : response;
+}
+
+/* What a light gives a lobe, by the cosine v of its axis with the lobe's: the mean over the cap,
+ * reading / (cap's + lobe's angle), times the cap's. */
+LMP_INLINE vf lobe_alone(const lobe_lanes *lobe, const shade_direction *direction, vf v) {
+    const lobe_cap cap = lobe_cap_of(direction);
+    const vf read = lobe_read(lobe, lmp_lookup_acos(v), cap.angle);
+    return lobe_ambient(direction, read * (cap.weight / (cap.covered + lobe->angle)));
+}
+
+/* Two lobes, with one division for both. */
+LMP_INLINE void lobe_pair(const lobe_lanes lobes[2], const shade_direction *direction,
+                          const vf v[2], vf responses[2]) {
+    const lobe_cap cap = lobe_cap_of(direction);
+    const vf one = lobe_read(&lobes[0], lmp_lookup_acos(v[0]), cap.angle);
+    const vf other = lobe_read(&lobes[1], lmp_lookup_acos(v[1]), cap.angle);
+    const vf first = cap.covered + lobes[0].angle, second = cap.covered + lobes[1].angle;
+    const vf each = cap.weight / (first * second);
+    responses[0] = lobe_ambient(direction, one * second * each);
+    responses[1] = lobe_ambient(direction, other * first * each);
 }
 
 /* Where the lobes of a block of surfaces lie and point. */
@@ -157,22 +175,51 @@ LMP_INLINE void shade_directions(int lobes, const lmp_kernel_surfaces *surfaces,
         shade_direction_of(lobes, &lights[i], plain, &block, &directions[i], v + i * (size_t)lobes);
 }
 
-/* Lobe -1 is the diffuse one. */
-LMP_INLINE void lobe_pair_load(const lmp_kernel_preintegrated_lobe *lobe,
-                               const lmp_kernel_lobe_positions *diffuse,
-                               const lmp_kernel_lobe_positions *specular, int first, size_t e,
-                               lobe_lanes lobes[2]) {
-    if (first < 0)
-        lobe_lanes_load(lobe, diffuse, 0, &lobes[0]);
-    else
-        lobe_lanes_load(lobe, &specular[first], e, &lobes[0]);
-    lobe_lanes_load(lobe, &specular[first + 1], e, &lobes[1]);
+LMP_INLINE void lobe_shade_diffuse(const lmp_packed_light *lights, size_t light_count,
+                                   const shade_direction *directions, size_t e,
+                                   float *const planes[3]) {
+    vf sums[3];
+    shade_sums_load(planes, e, sums);
+    for (size_t i = 0; i < light_count; i++) {
+        const shade_direction *direction = &directions[i];
+        const vf clipped = shade_clipped(direction->u, direction->t);
+        const vf response = direction->weight * (vf_set(2) - direction->t) * clipped;
+        shade_accumulate(&lights[i].color, lobe_ambient(direction, response), sums);
+    }
+    shade_sums_store(sums, e, planes);
 }
 
-/* Lights go by once for each pair of lobes, the diffuse one before Phong's: more at once would not
- * find registers. One specular lobe as a constant spares AVX-512 a fifth of the time. */
+/* A lobe of its own; v is that of the first light. */
+LMP_INLINE void lobe_shade_alone(int lobe_count, const lobe_lanes *lobe,
+                                 const lmp_packed_light *lights, size_t light_count,
+                                 const shade_direction *directions, const vf *v, size_t e,
+                                 float *const planes[3]) {
+    vf sums[3];
+    shade_sums_load(planes, e, sums);
+    for (size_t i = 0; i < light_count; i++, v += lobe_count)
+        shade_accumulate(&lights[i].color, lobe_alone(lobe, &directions[i], *v), sums);
+    shade_sums_store(sums, e, planes);
+}
+
+LMP_INLINE void lobe_shade_pair(int lobe_count, const lobe_lanes lobes[2],
+                                const lmp_packed_light *lights, size_t light_count,
+                                const shade_direction *directions, const vf *v, size_t e,
+                                float *const *const planes[2]) {
+    vf sums[2][3], responses[2];
+    shade_sums_load(planes[0], e, sums[0]);
+    shade_sums_load(planes[1], e, sums[1]);
+    for (size_t i = 0; i < light_count; i++, v += lobe_count) {
+        lobe_pair(lobes, &directions[i], v, responses);
+        shade_accumulate(&lights[i].color, responses[0], sums[0]);
+        shade_accumulate(&lights[i].color, responses[1], sums[1]);
+    }
+    shade_sums_store(sums[0], e, planes[0]);
+    shade_sums_store(sums[1], e, planes[1]);
+}
+
+/* Lights go by once for the diffuse lobe, once for the first of Phong's and once for each pair of
+ * the others: more at once would not find registers. */
 LMP_INLINE void lobe_shade(int lobe_count, const lmp_kernel_preintegrated_lobe *lobe,
-                           const lmp_kernel_lobe_positions *diffuse,
                            const lmp_kernel_lobe_positions *specular,
                            const lmp_kernel_surfaces *surfaces, const lmp_packed_light *lights,
                            size_t light_count, size_t count,
@@ -181,42 +228,34 @@ LMP_INLINE void lobe_shade(int lobe_count, const lmp_kernel_preintegrated_lobe *
     shade_direction directions[LMP_KERNEL_LIGHTS_MAX];
     vf v[LMP_KERNEL_LIGHTS_MAX * LMP_KERNEL_LOBES_MAX];
     lobe_lanes lobes[2];
-    vf sums[2][3], responses[2];
     for (size_t e = 0; e < count; e += LMP_LANES) {
         shade_directions(lobe_count, surfaces, lights, light_count, plain, e, directions, v);
-        for (int first = -1; first < lobe_count; first += 2) {
-            float *const *const planes[2] = { first < 0 ? accumulated->diffuse
-                                                        : accumulated->specular[first],
+        lobe_shade_diffuse(lights, light_count, directions, e, accumulated->diffuse);
+        lobe_lanes_load(lobe, &specular[0], e, &lobes[0]);
+        lobe_shade_alone(lobe_count, &lobes[0], lights, light_count, directions, v, e,
+                         accumulated->specular[0]);
+        for (int first = 1; first < lobe_count; first += 2) {
+            float *const *const planes[2] = { accumulated->specular[first],
                                               accumulated->specular[first + 1] };
-            lobe_pair_load(lobe, diffuse, specular, first, e, lobes);
-            shade_sums_load(planes[0], e, sums[0]);
-            shade_sums_load(planes[1], e, sums[1]);
-            for (size_t i = 0; i < light_count; i++) {
-                const shade_direction *direction = &directions[i];
-                const vf *of = v + i * (size_t)lobe_count;
-                lobe_pair(&lobes[0], &lobes[1], direction, first < 0 ? direction->u : of[first],
-                          of[first + 1], responses);
-                shade_accumulate(&lights[i].color, responses[0], sums[0]);
-                shade_accumulate(&lights[i].color, responses[1], sums[1]);
-            }
-            shade_sums_store(sums[0], e, planes[0]);
-            shade_sums_store(sums[1], e, planes[1]);
+            lobe_lanes_load(lobe, &specular[first], e, &lobes[0]);
+            lobe_lanes_load(lobe, &specular[first + 1], e, &lobes[1]);
+            lobe_shade_pair(lobe_count, lobes, lights, light_count, directions, v + first, e,
+                            planes);
         }
     }
 }
 
 static void kernel_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe *lobe,
-                                            const lmp_kernel_lobe_positions *diffuse,
                                             const lmp_kernel_lobe_positions *specular,
                                             const lmp_kernel_surfaces *surfaces,
                                             const lmp_packed_light *lights, size_t light_count,
                                             size_t count,
                                             const lmp_kernel_accumulated *accumulated) {
     if (surfaces->lobe_count == 1)
-        lobe_shade(1, lobe, diffuse, specular, surfaces, lights, light_count, count, accumulated);
+        lobe_shade(1, lobe, specular, surfaces, lights, light_count, count, accumulated);
     else
-        lobe_shade(surfaces->lobe_count, lobe, diffuse, specular, surfaces, lights, light_count,
-                   count, accumulated);
+        lobe_shade(surfaces->lobe_count, lobe, specular, surfaces, lights, light_count, count,
+                   accumulated);
 }
 
 #endif

@@ -2,14 +2,16 @@
 /* shade.h - what the kernels that shade surfaces share (shade.h of the API): lanes are surfaces,
  * each with lobes of its own; lights are broadcast.
  *
- * Of each light a surface needs a number a lobe: what the diffuse and the Phong lobes respond to
- * its cap. shade_zonal.h sums bands, preintegrated_lobe.h reads them from a table. */
+ * Of each light a surface needs a number per lobe. That of the diffuse lobe has a closed form
+ * (horizon.h); of Phong lobes shade_zonal.h sums bands, and preintegrated_lobe.h reads the sums
+ * from a table. */
 #ifndef LAMPION_KERNELS_SHADE_H
 #define LAMPION_KERNELS_SHADE_H
 
 #include "src/kernels/accumulate.h"
 #include "src/kernels/cone.h"
 #include "src/kernels/fade.h"
+#include "src/kernels/horizon.h"
 
 /* What of a light they need: of its cap of at most a hemisphere u, the cosine of its axis with the
  * normal, and t; the weight of its responses, t but for the light's fading and sign, and of a Dirac
@@ -106,6 +108,20 @@ LMP_INLINE cap_lanes shade_cap(const lmp_packed_light *light, int plain, const v
 
 LMP_INLINE vf shade_dot(const vf a[3], const cap_lanes *cap) {
     return a[0] * cap->x + a[1] * cap->y + a[2] * cap->z;
+}
+
+/* A function of its own, by value, so that surfaces whose horizon cuts no light keep their
+ * registers. */
+static LMP_NOINLINE vf shade_horizon(vf u, vf t) {
+    return vf_select_less(u * u, t * (vf_set(2) - t), lmp_horizon_between(u, t),
+                          vf_max(u, vf_set(0)));
+}
+
+/* f of horizon.h: the cosine u of a cap's axis with the normal, clipped by the horizon. */
+LMP_INLINE vf shade_clipped(vf u, vf t) {
+    if (__builtin_expect(vf_any_less(u * u, t * (vf_set(2) - t)), 0))
+        return shade_horizon(u, t);
+    return vf_max(u, vf_set(0));
 }
 
 /* Adds a response to what a lobe of a block of surfaces has accumulated: red, green, blue. By its

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* shade_zonal.h - lobes of surfaces under lights, summed over bands (zonal_sums.h).
+/* shade_zonal.h - lobes of surfaces under lights: the diffuse one by its closed form, Phong's
+ * summed over bands (zonal_sums.h).
  *
  * A tile is a block of surfaces under many lights or, where lights are few, several blocks under
  * them. First come the caps of all and their R_l, then lobe after lobe: pairs of a light and a
@@ -11,7 +12,8 @@
 #include "src/kernels/zonal_sums.h"
 
 /* A light seen from a block of surfaces: the axis of its cap of at most a hemisphere, the weights
- * of a lobe's sum over bands and of its number of l = 0, and what else shade_direction says;
+ * of a lobe's sum over bands (of the diffuse lobe's clipped cosine, too) and of its number of
+ * l = 0, and what else shade_direction says;
  * `ambient` is 0 where there is none. */
 typedef struct zonal_pair {
     vf axis[3], of_sum, of_whole, t, ambient;
@@ -128,8 +130,29 @@ LMP_INLINE void zonal_add(const zonal_pair *pair, int is_ambient, const lmp_rgb 
     shade_accumulate(rgb, response, sums);
 }
 
-/* A lobe of a tile from surface e on: its axes, where its weights are (none of the diffuse one),
- * what it adds to, and the lights, some of them ambient. */
+/* The diffuse lobe, block after block. */
+LMP_INLINE void zonal_diffuse(int blocks, const zonal_work *work, const lmp_packed_light *lights,
+                              size_t light_count, int is_ambient, size_t e) {
+    for (int b = 0; b < blocks; b++) {
+        const size_t block = e + (size_t)b * LMP_LANES;
+        vf normal[3], sums[3];
+        shade_planes(&work->surfaces->normal, block, normal);
+        shade_sums_load(work->accumulated->diffuse, block, sums);
+        for (size_t i = 0; i < light_count; i++) {
+            const zonal_pair *pair = &work->pairs[i * (size_t)blocks + (size_t)b];
+            const vf u =
+                normal[0] * pair->axis[0] + normal[1] * pair->axis[1] + normal[2] * pair->axis[2];
+            vf response = pair->of_sum * shade_clipped(u, pair->t);
+            if (__builtin_expect(is_ambient, 0))
+                response = response + pair->ambient;
+            shade_accumulate(&lights[i].color, response, sums);
+        }
+        shade_sums_store(sums, block, work->accumulated->diffuse);
+    }
+}
+
+/* A Phong lobe of a tile from surface e on: its axes, where its weights are, what it adds to, and
+ * the lights, some of them ambient. */
 typedef struct zonal_lobe {
     const lmp_kernel_vec3 *axes;
     int row;
@@ -141,7 +164,7 @@ typedef struct zonal_lobe {
 
 /* Pairs from `first` on: of one block, or of one light and all blocks. */
 LMP_INLINE void zonal_some(int side_by_side, size_t first, int blocks, int bands, int monic,
-                           int diffuse, const zonal_work *work, const zonal_lobe *lobe) {
+                           const zonal_work *work, const zonal_lobe *lobe) {
     const zonal_tables *tables = work->tables;
     const zonal_pair *pairs = work->pairs + first;
     const vf *r[ZONAL_SIDE_BY_SIDE], *weights[ZONAL_SIDE_BY_SIDE];
@@ -153,32 +176,28 @@ LMP_INLINE void zonal_some(int side_by_side, size_t first, int blocks, int bands
             shade_planes(lobe->axes, lobe->e + (size_t)block * LMP_LANES, axis);
         v[i] = axis[0] * pairs[i].axis[0] + axis[1] * pairs[i].axis[1] + axis[2] * pairs[i].axis[2];
         r[i] = zonal_r(bands, work, first + (size_t)i);
-        weights[i] = diffuse ? NULL : zonal_weights(bands, work, lobe->row, block);
+        weights[i] = zonal_weights(bands, work, lobe->row, block);
     }
-    if (diffuse)
-        zonal_diffuse_sum(side_by_side, bands, monic, tables, r, v, sum);
-    else
-        zonal_phong_sum(side_by_side, bands, monic, tables, weights, r, v, sum);
+    zonal_phong_sum(side_by_side, bands, monic, tables, weights, r, v, sum);
     LMP_UNROLL for (int i = 0; i < side_by_side; i++) {
         const size_t e = lobe->e + (blocks > 1 ? (size_t)i * LMP_LANES : 0);
         const lmp_packed_light *light =
             &lobe->lights[blocks > 1 ? first / ZONAL_BLOCKS : first + (size_t)i];
         if (i == 0 || blocks > 1)
             shade_sums_load(lobe->to, e, sums);
-        zonal_add(&pairs[i], lobe->is_ambient, &light->color, sum[i],
-                  diffuse ? zonal_lanes(tables->diffuse[0]) : weights[i][0], sums);
+        zonal_add(&pairs[i], lobe->is_ambient, &light->color, sum[i], weights[i][0], sums);
         if (i == side_by_side - 1 || blocks > 1)
             shade_sums_store(sums, e, lobe->to);
     }
 }
 
-LMP_INLINE void zonal_pairs(int blocks, int bands, int monic, int diffuse, const zonal_work *work,
+LMP_INLINE void zonal_pairs(int blocks, int bands, int monic, const zonal_work *work,
                             const zonal_lobe *lobe, size_t light_count) {
     if (blocks > 1)
         for (size_t i = 0; i < light_count; i++)
-            zonal_some(ZONAL_BLOCKS, i * ZONAL_BLOCKS, blocks, bands, monic, diffuse, work, lobe);
+            zonal_some(ZONAL_BLOCKS, i * ZONAL_BLOCKS, blocks, bands, monic, work, lobe);
     else
-        ZONAL_EACH(light_count, zonal_some, blocks, bands, monic, diffuse, work, lobe);
+        ZONAL_EACH(light_count, zonal_some, blocks, bands, monic, work, lobe);
 }
 
 /* A tile. Where the weights of all lobes have no room at once, lights go by again for the rest. */
@@ -196,12 +215,8 @@ LMP_INLINE void zonal_tile(int blocks, int bands, int monic, const zonal_work *w
             const size_t rest = work->light_count - i;
             taken = rest < work->together ? rest : work->together;
             const int is_ambient = zonal_caps(bands, monic, work, lights, taken, e, blocks);
-            if (first == 0) {
-                const zonal_lobe lobe = {
-                    &surfaces->normal, 0, to->diffuse, lights, is_ambient, e
-                };
-                zonal_pairs(blocks, bands, monic, 1, work, &lobe, taken);
-            }
+            if (first == 0)
+                zonal_diffuse(blocks, work, lights, taken, is_ambient, e);
             for (int k = 0; k < lobes; k++) {
                 const zonal_lobe lobe = { &surfaces->lobe[first + k].axis,
                                           k,
@@ -209,7 +224,7 @@ LMP_INLINE void zonal_tile(int blocks, int bands, int monic, const zonal_work *w
                                           lights,
                                           is_ambient,
                                           e };
-                zonal_pairs(blocks, bands, monic, 0, work, &lobe, taken);
+                zonal_pairs(blocks, bands, monic, work, &lobe, taken);
             }
         }
     }
@@ -300,9 +315,8 @@ static inline void zonal_divide(int bands, zonal_work *work) {
                                                  : left / some * some);
 }
 
-static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
-                               const lmp_kernel_surfaces *surfaces, const lmp_packed_light *lights,
-                               size_t light_count, size_t count,
+static void kernel_shade_zonal(int bands, const float *window, const lmp_kernel_surfaces *surfaces,
+                               const lmp_packed_light *lights, size_t light_count, size_t count,
                                const lmp_kernel_accumulated *accumulated) {
     zonal_tables tables;
     zonal_pair pairs[ZONAL_PAIRS];
@@ -318,7 +332,7 @@ static void kernel_shade_zonal(int bands, const float *window, const float *diff
                         .memory = memory };
     const int padded = bands < ZONAL_BANDS_MIN ? ZONAL_BANDS_MIN : bands;
     zonal_divide(padded, &work);
-    zonal_prepare(bands, bands <= ZONAL_MONIC_BANDS, window, diffuse, &tables);
+    zonal_prepare(bands, bands <= ZONAL_MONIC_BANDS, window, &tables);
     zonal_of(padded, &work);
 }
 

@@ -32,32 +32,20 @@ typedef vf zonal_number;
 
 /* What is the same for every surface, by band. The factors of R_l P_l hold their norms, of l = 0
  * those of strength and solid angle, which are pi (1 + |cos a|) and 2 pi times a direction's
- * weight. Even bands of the diffuse lobe, l = 2k, take two steps at once: P_l = (even_a u² -
- * even_b) P_(l-2) - even_c P_(l-4), even_a = 1 in monic form. */
+ * weight. */
 typedef struct zonal_tables {
     float phong[LMP_BANDS_MAX];
     zonal_number cap[ZONAL_MONIC_BANDS], lobe[ZONAL_MONIC_BANDS]; /* c_l; only in monic form */
-    zonal_number even_b[ZONAL_MONIC_BANDS / 2 + 1], even_c[ZONAL_MONIC_BANDS / 2 + 1]; /* too */
-    zonal_number diffuse_1; /* of l = 1; of even l: */
-    zonal_number diffuse[LMP_BANDS_MAX / 2];
 } zonal_tables;
 
-static inline void zonal_prepare(int bands, int monic, const float *window, const float *diffuse,
-                                 zonal_tables *tables) {
+static inline void zonal_prepare(int bands, int monic, const float *window, zonal_tables *tables) {
     for (int l = 0; l < bands || l < ZONAL_BANDS_MIN; l++) {
         const double factor = l < bands ? lmp_table_zonal_scale[monic][l] * (double)window[l] : 0;
-        const float of_diffuse = l < bands ? (float)(factor * (double)diffuse[l]) : 0;
         tables->phong[l] = (float)factor;
         if (monic) {
             tables->cap[l] = zonal_number_of(lmp_table_zonal_cap[l]);
             tables->lobe[l] = zonal_number_of(lmp_table_zonal_lobe[l]);
-            tables->even_b[l / 2] = zonal_number_of(lmp_table_even_b[1][l / 2]);
-            tables->even_c[l / 2] = zonal_number_of(lmp_table_even_c[1][l / 2]);
         }
-        if (l == 1)
-            tables->diffuse_1 = zonal_number_of(of_diffuse);
-        if (l % 2 == 0)
-            tables->diffuse[l / 2] = zonal_number_of(of_diffuse);
     }
 }
 
@@ -122,16 +110,6 @@ LMP_INLINE vf zonal_c(int monic, const zonal_tables *tables, int l) {
     return monic ? zonal_lanes(tables->lobe[l]) : vf_set(lmp_table_legendre_d[l]);
 }
 
-/* The same of P_2k(u), square = u². */
-LMP_INLINE vf zonal_even_x(int monic, const zonal_tables *tables, int k, vf square) {
-    return monic ? square - tables->even_b[k]
-                 : lmp_table_even_a[0][k] * square - lmp_table_even_b[0][k];
-}
-
-LMP_INLINE vf zonal_even_c(int monic, const zonal_tables *tables, int k) {
-    return monic ? zonal_lanes(tables->even_c[k]) : vf_set(lmp_table_even_c[0][k]);
-}
-
 /* The sum of a Phong lobe from l = 1 on, of lights side by side: each waits for itself. */
 LMP_INLINE void zonal_phong_sum(int lights, int bands, int monic, const zonal_tables *tables,
                                 const vf *const *weights, const vf *const *r, const vf *v,
@@ -152,30 +130,6 @@ LMP_INLINE void zonal_phong_sum(int lights, int bands, int monic, const zonal_ta
     }
     LMP_UNROLL for (int i = 0; i < lights; i++) sums[i] =
         v[i] * y1[i] - zonal_c(monic, tables, 2) * y2[i];
-}
-
-/* The diffuse one's, u the cosines with the normal. */
-LMP_INLINE void zonal_diffuse_sum(int lights, int bands, int monic, const zonal_tables *tables,
-                                  const vf *const *r, const vf *u, vf *sums) {
-    vf square[ZONAL_SIDE_BY_SIDE], y2[ZONAL_SIDE_BY_SIDE], y1[ZONAL_SIDE_BY_SIDE];
-    const int last = (bands - 1) / 2;
-    LMP_UNROLL for (int i = 0; i < lights; i++) {
-        square[i] = u[i] * u[i];
-        y2[i] = vf_set(0);
-        y1[i] = tables->diffuse[last] * r[i][2 * last];
-    }
-    LMP_UNROLL for (int k = last - 1; k >= 1; k--) {
-        LMP_UNROLL for (int i = 0; i < lights; i++) {
-            const vf own = tables->diffuse[k] * r[i][2 * k];
-            const vf rest = k == last - 1 ? own : own - zonal_even_c(monic, tables, k + 2) * y2[i];
-            y2[i] = y1[i];
-            y1[i] = rest + zonal_even_x(monic, tables, k + 1, square[i]) * y1[i];
-        }
-    }
-    LMP_UNROLL for (int i = 0; i < lights; i++) {
-        const vf sum = tables->diffuse_1 * u[i] + zonal_even_x(monic, tables, 1, square[i]) * y1[i];
-        sums[i] = last == 1 ? sum : sum - zonal_even_c(monic, tables, 2) * y2[i];
-    }
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include "src/base/precondition.h"
 #include "src/base/tables.h"
 #include "src/base/unroll.h"
+#include "src/kernels/horizon.h"
 #include "src/kernels/kernels.h"
 
 #include <lampion/light.h>
@@ -41,6 +42,16 @@ bool lmp_are_lights(const lmp_light *lights, size_t count);
 /* Adds the coefficients of bands low … high-1, as many values, to each of the planes, red, green,
  * blue, that is not NULL. */
 void lmp_cap_add(int low, int high, const lmp_cap *cap, float *const planes[3]);
+
+/* Adds the irradiance of a surface that faces `normal`. */
+static inline void lmp_cap_add_irradiance(const lmp_cap *cap, lmp_vec3 normal, lmp_rgb *sum) {
+    const lmp_vec3 w = cap->axis;
+    const float cosine = normal.x * w.x + normal.y * w.y + normal.z * w.z;
+    const float clipped = lmp_horizon_cosine(cosine, cap->one_minus_cos), pi = 3.14159265f;
+    sum->r += cap->strength.r * clipped + pi * cap->ambient.r;
+    sum->g += cap->strength.g * clipped + pi * cap->ambient.g;
+    sum->b += cap->strength.b * clipped + pi * cap->ambient.b;
+}
 
 /* R_l(1 - one_minus_cos), l < bands, one_minus_cos in 0 … 1, by differences: cos a itself, rounded
  * near 1, would cost l² units. */

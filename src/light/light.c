@@ -152,6 +152,18 @@ void lmp_light_project_channels(int bands, const lmp_light *lights, size_t count
     }
 }
 
+lmp_rgb lmp_light_irradiance(const lmp_light *lights, size_t count, lmp_vec3 point,
+                             lmp_vec3 normal) {
+    assert(lmp_is_unit(normal));
+    lmp_rgb sum = { 0, 0, 0 };
+    for (size_t i = 0; i < count; i++) {
+        lmp_cap cap;
+        lmp_light_cap(&lights[i], point, &cap);
+        lmp_cap_add_irradiance(&cap, normal, &sum);
+    }
+    return sum;
+}
+
 void lmp_light_project(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                        float *sh) {
     const size_t plane = LMP_SH_COUNT(bands);

@@ -5,8 +5,8 @@
 
 static const float pi = 3.14159265f;
 
-/* What is the same for all surfaces: the bands, and factors of the diffuse lobe of integral 1 and
- * of Phong's, windowed. */
+/* What is the same for all surfaces: the bands, factors of the diffuse lobe of integral 1, and the
+ * window of Phong's. */
 typedef struct environment_method {
     const lmp_shade_settings *settings;
     int bands;
@@ -30,9 +30,10 @@ static environment_method method_of(const lmp_shade_settings *resolved, const lm
                                   .bands =
                                       resolved->bands < e->bands ? resolved->bands : e->bands };
     lmp_sh_window(resolved->bands, resolved->window, resolved->window_size, method.window);
+    const bool windowed = lmp_shade_method_of(resolved->method)->windows_diffuse;
     lmp_lobe_diffuse(resolved->bands, method.diffuse);
     for (int l = 0; l < resolved->bands; l++)
-        method.diffuse[l] *= method.window[l] / pi;
+        method.diffuse[l] *= (windowed ? method.window[l] : 1) / pi;
     for (size_t c = 0; c < 3; c++)
         method.planes[c] = e->sh + c * LMP_SH_COUNT(e->bands);
     return method;

@@ -62,22 +62,12 @@ int lmp_shade_layers_over(const lmp_material *material, shade_over over, lmp_vec
 
 /* --- many surfaces ---------------------------------------------------------------------------- */
 
-/* What shines on them: lights, or an environment. */
+/* What shines on them. */
 typedef struct layers_light {
-    const lmp_shade_settings *settings;
-    const lmp_light *lights;
-    size_t light_count;
-    const lmp_environment *environment;
+    shade_bare_n *bare;
+    const void *light;
+    bool positions; /* are read */
 } layers_light;
-
-static unsigned shade_bare(const layers_light *light, const lmp_surfaces *surfaces, size_t count,
-                           size_t stride, float *rgb) {
-    if (light->environment)
-        return lmp_shade_environment_bare_n(light->settings, surfaces, count, light->environment,
-                                            stride, rgb);
-    return lmp_shade_bare_n(light->settings, surfaces, count, light->lights, light->light_count,
-                            stride, rgb);
-}
 
 /* Layers over some surfaces: as many as the stack has room for. */
 enum { TAKEN = 6 };
@@ -133,7 +123,7 @@ static void add_layers(const layers_light *light, const taken_layers *taken, siz
                                 .material = taken->material,
                                 .material_stride = sizeof *taken->material };
     lmp_rgb reflected[TAKEN];
-    shade_bare(light, &over, taken->count, sizeof *reflected, &reflected->r);
+    light->bare(light->light, &over, taken->count, sizeof *reflected, &reflected->r);
     for (size_t k = 0; k < taken->count; k++) {
         const shade_layer layer = { .weight = taken->weight[k], .left = taken->left[k] };
         char *to = (char *)rgb + taken->at[k] * stride;
@@ -144,28 +134,54 @@ static void add_layers(const layers_light *light, const taken_layers *taken, siz
     }
 }
 
-static void shade_layered(const layers_light *light, const lmp_surfaces *surfaces, size_t count,
-                          size_t rgb_stride, float *rgb) {
+void lmp_shade_layered(shade_bare_n *bare, const void *light, bool positions,
+                       const lmp_surfaces *surfaces, size_t count, size_t rgb_stride, float *rgb) {
+    const layers_light shining = { bare, light, positions };
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
-    const unsigned overs = shade_bare(light, surfaces, count, stride, rgb);
+    const unsigned overs = bare(light, surfaces, count, stride, rgb);
     for (shade_over over = 0; over < SHADE_OVERS; over++)
         for (size_t next = overs >> over & 1 ? 0 : count; next < count;) {
             taken_layers taken;
-            next = take_layers(surfaces, !light->environment, over, next, count, &taken);
+            next = take_layers(surfaces, positions, over, next, count, &taken);
             if (taken.count > 0)
-                add_layers(light, &taken, stride, rgb);
+                add_layers(&shining, &taken, stride, rgb);
         }
+}
+
+typedef struct shade_lights {
+    const lmp_shade_settings *settings;
+    const lmp_light *lights;
+    size_t count;
+} shade_lights;
+
+static unsigned shade_under_lights(const void *light, const lmp_surfaces *surfaces, size_t count,
+                                   size_t stride, float *rgb) {
+    const shade_lights *lights = light;
+    return lmp_shade_bare_n(lights->settings, surfaces, count, lights->lights, lights->count,
+                            stride, rgb);
 }
 
 void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces, size_t count,
                  const lmp_light *lights, size_t light_count, size_t rgb_stride, float *rgb) {
-    const layers_light light = { settings, lights, light_count, NULL };
-    shade_layered(&light, surfaces, count, rgb_stride, rgb);
+    const shade_lights light = { settings, lights, light_count };
+    lmp_shade_layered(shade_under_lights, &light, true, surfaces, count, rgb_stride, rgb);
+}
+
+typedef struct shade_surroundings {
+    const lmp_shade_settings *settings;
+    const lmp_environment *environment;
+} shade_surroundings;
+
+static unsigned shade_under_environment(const void *light, const lmp_surfaces *surfaces,
+                                        size_t count, size_t stride, float *rgb) {
+    const shade_surroundings *around = light;
+    return lmp_shade_environment_bare_n(around->settings, surfaces, count, around->environment,
+                                        stride, rgb);
 }
 
 void lmp_shade_environment_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
                              size_t count, const lmp_environment *environment, size_t rgb_stride,
                              float *rgb) {
-    const layers_light light = { settings, NULL, 0, environment };
-    shade_layered(&light, surfaces, count, rgb_stride, rgb);
+    const shade_surroundings light = { settings, environment };
+    lmp_shade_layered(shade_under_environment, &light, false, surfaces, count, rgb_stride, rgb);
 }

@@ -226,6 +226,12 @@ unsigned lmp_shade_environment_bare_n(const lmp_shade_settings *settings,
                                       const lmp_environment *environment, size_t rgb_stride,
                                       float *rgb);
 
+/* Such a function, of whatever shines; and surfaces with their layers by it. */
+typedef unsigned shade_bare_n(const void *light, const lmp_surfaces *surfaces, size_t count,
+                              size_t stride, float *rgb);
+void lmp_shade_layered(shade_bare_n *bare, const void *light, bool positions,
+                       const lmp_surfaces *surfaces, size_t count, size_t rgb_stride, float *rgb);
+
 /* Not clamped. */
 lmp_rgb lmp_shade_lobes_zonal(const shade_lobes *lobes, lmp_vec3 point, const lmp_light *lights,
                               size_t count);

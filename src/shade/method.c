@@ -1,42 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/shade/method.h"
 
-static const float pi = 3.14159265f;
-
 /* --- by bands --------------------------------------------------------------------------------- */
 
 static void prepare_zonal(const lmp_shade_settings *settings, shade_prepared *prepared) {
     lmp_sh_window(settings->bands, settings->window, settings->window_size, prepared->window);
-    lmp_lobe_diffuse(settings->bands, prepared->diffuse);
-    for (int l = 0; l < settings->bands; l++)
-        prepared->diffuse[l] /= pi;
 }
 
 static void add_zonal(const shade_prepared *prepared, const shade_chunk *chunk,
                       const lmp_packed_light *lights, size_t count) {
-    lmp_kernels_get()->shade_zonal(prepared->settings->bands, prepared->window, prepared->diffuse,
-                                   &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
+    lmp_kernels_get()->shade_zonal(prepared->settings->bands, prepared->window, &chunk->surfaces,
+                                   lights, count, chunk->count, &chunk->sums);
 }
 
 /* --- from preintegrated lobes ----------------------------------------------------------------- */
 
 static void prepare_preintegrated(const lmp_shade_settings *settings, shade_prepared *prepared) {
-    lmp_preintegrated_lobe_position position;
-    if (!settings->lobe)
-        return;
-    prepared->info = lmp_preintegrated_lobe_describe(settings->lobe);
-    lmp_preintegrated_lobe_lookup(&prepared->info, 1, &position);
-    for (int i = 0; i < LMP_KERNEL_LANES_MAX; i++) {
-        prepared->diffuse_first[i] = position.first;
-        prepared->diffuse_columns[i] = position.columns;
-        prepared->diffuse_numbers[0][i] = position.fraction;
-        prepared->diffuse_numbers[1][i] = position.density;
-        prepared->diffuse_numbers[2][i] = position.lobe_angle;
-    }
-    prepared->diffuse_position =
-        (lmp_kernel_lobe_positions) { prepared->diffuse_first, prepared->diffuse_columns,
-                                      prepared->diffuse_numbers[0], prepared->diffuse_numbers[1],
-                                      prepared->diffuse_numbers[2] };
+    if (settings->lobe)
+        prepared->info = lmp_preintegrated_lobe_describe(settings->lobe);
 }
 
 /* Of all lobes of a chunk: one plane after the other. */
@@ -78,9 +59,8 @@ static void add_preintegrated(const shade_prepared *prepared, const shade_chunk 
     for (int k = 0; k < chunk->phong_count; k++)
         specular[k] = find_positions(&prepared->info, chunk->planes.lobe[k].exponent, chunk->count,
                                      (size_t)k * chunk->planes.stride, &positions);
-    lmp_kernels_get()->shade_preintegrated_lobe(&lobe, &prepared->diffuse_position, specular,
-                                                &chunk->surfaces, lights, count, chunk->count,
-                                                &chunk->sums);
+    lmp_kernels_get()->shade_preintegrated_lobe(&lobe, specular, &chunk->surfaces, lights, count,
+                                                chunk->count, &chunk->sums);
 }
 
 /* --- the table -------------------------------------------------------------------------------- */
@@ -89,7 +69,8 @@ static const shade_method methods[LMP_SHADE_METHODS] = {
     [LMP_SHADE_ZONAL] = { .lobes_of_one = lmp_shade_lobes_zonal,
                           .prepare = prepare_zonal,
                           .lobes_of_chunk = add_zonal },
-    [LMP_SHADE_COEFFICIENTS] = { .lobes_of_one = lmp_shade_lobes_coefficients },
+    [LMP_SHADE_COEFFICIENTS] = { .windows_diffuse = true,
+                                 .lobes_of_one = lmp_shade_lobes_coefficients },
     [LMP_SHADE_PREINTEGRATED] = { .preintegrated = true,
                                   .prepare = prepare_preintegrated,
                                   .lobes_of_chunk = add_preintegrated },

@@ -10,17 +10,16 @@
 typedef struct shade_prepared {
     const struct shade_method *method;
     const lmp_shade_settings *settings;
-    float window[LMP_BANDS_MAX], diffuse[LMP_BANDS_MAX];
+    float window[LMP_BANDS_MAX];
     lmp_preintegrated_lobe_info info;
-    uint32_t diffuse_first[LMP_KERNEL_LANES_MAX], diffuse_columns[LMP_KERNEL_LANES_MAX];
-    float diffuse_numbers[3][LMP_KERNEL_LANES_MAX];
-    lmp_kernel_lobe_positions diffuse_position;
 } shade_prepared;
 
 typedef struct shade_method {
     /* It reads the settings' preintegrated lobe, and of a tabulated material, where there is one,
      * the preintegrated BRDF. */
     bool preintegrated;
+    /* The windowing filter damps the diffuse lobe too, as in the paper. */
+    bool windows_diffuse;
     /* What the lobes of one surface reflect, not clamped; NULL: they are a chunk of one. */
     lmp_rgb (*lobes_of_one)(const shade_lobes *lobes, lmp_vec3 point, const lmp_light *lights,
                             size_t count);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Lobes by the addition theorem: a sum over bands a light, in place of their n² coefficients. */
+/* Lobes of one surface: the diffuse one by its closed form, Phong's by the addition theorem, a sum
+ * over bands per light in place of its n² coefficients. */
 #include "src/light/cap.h"
 #include "src/lobe/response.h"
 #include "src/shade/material.h"
@@ -9,13 +10,14 @@ lmp_rgb lmp_shade_lobes_zonal(const shade_lobes *lobes, lmp_vec3 point, const lm
     const int bands = lobes->bands;
     float weights[SHADE_LOBES_MAX][LMP_BANDS_MAX], r[LMP_BANDS_MAX];
     lmp_rgb accumulated[SHADE_LOBES_MAX] = { { 0, 0, 0 } }, color = { 0, 0, 0 };
-    for (int k = 0; k < lobes->count; k++)
+    for (int k = 1; k < lobes->count; k++)
         lmp_lobe_weights(bands, lobes->lobe[k].lambda, weights[k]);
     for (size_t i = 0; i < count; i++) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], point, &cap);
         lmp_cap_polynomials(bands, cap.one_minus_cos, r);
-        for (int k = 0; k < lobes->count; k++) {
+        lmp_cap_add_irradiance(&cap, lobes->lobe[0].axis, &accumulated[0]);
+        for (int k = 1; k < lobes->count; k++) {
             const shade_lobe *lobe = &lobes->lobe[k];
             lmp_lobe_add(&cap, lmp_lobe_sum(bands, weights[k], r, lobe->axis, cap.axis),
                          lobe->lambda[0], &accumulated[k]);

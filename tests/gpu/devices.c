@@ -175,7 +175,7 @@ static void an_environment_is_drawn_alike(void **state) {
 }
 
 static void check_preintegrated(fixture *s) {
-    s->frame.method = METHOD_COEFFICIENTS;
+    s->frame.method = METHOD_ZONAL;
     draw_first(s->renderer, &s->frame);
     lmp_preintegrated_lobe *lobe = lobe_of(&s->frame);
     s->frame.lobes = lobe;
@@ -188,7 +188,7 @@ static void check_preintegrated(fixture *s) {
     lmp_preintegrated_lobe_destroy(lobe);
 }
 
-static void preintegrated_images_are_those_of_coefficients(const int bands[3]) {
+static void preintegrated_images_are_those_of_sums(const int bands[3]) {
     const char *const scenes[] = { "builtin:atrium", "builtin:balls" };
     for (int i = 0; i < 2; i++) {
         fixture s;
@@ -204,14 +204,14 @@ static void preintegrated_images_are_those_of_coefficients(const int bands[3]) {
     }
 }
 
-static void preintegrated_images_of_few_bands_are_those_of_coefficients(void **state) {
+static void preintegrated_images_of_few_bands_are_those_of_sums(void **state) {
     (void)state;
-    preintegrated_images_are_those_of_coefficients((const int[3]) { 5, 8, 12 });
+    preintegrated_images_are_those_of_sums((const int[3]) { 5, 8, 12 });
 }
 
-static void preintegrated_images_of_many_bands_are_those_of_coefficients(void **state) {
+static void preintegrated_images_of_many_bands_are_those_of_sums(void **state) {
     (void)state;
-    preintegrated_images_are_those_of_coefficients((const int[3]) { 16, 20 });
+    preintegrated_images_are_those_of_sums((const int[3]) { 16, 20 });
 }
 
 /* Tabulated materials on both devices; the gold is read from its lobe, the last by its bands. */
@@ -240,7 +240,7 @@ static void tabulated_materials_are_drawn_alike_by_sums_and_by_tables(void **sta
     cli_error error = { "" };
     expect(gpu_set_tables(s.renderer, (const lmp_brdf_table *const *)tables, 2, uses, &error),
            &error);
-    s.frame.method = METHOD_COEFFICIENTS;
+    s.frame.method = METHOD_ZONAL;
     draw_first(s.renderer, &s.frame);
     lmp_preintegrated_lobe *lobes = lobe_of(&s.frame);
     s.frame.lobes = lobes;
@@ -325,14 +325,14 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     (void)state;
     fixture s;
     open_fixture(&s, "builtin:atrium");
-    s.frame.method = METHOD_ZONAL;
+    s.frame.method = METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
     s.frame.method = METHOD_PAPER;
     draw(s.renderer, &s.frame, second);
     assert_int_equal(beyond(1), 0);
     const int bands = s.frame.bands;
     s.frame.bands = 1; /* which has no table */
-    s.frame.method = METHOD_ZONAL;
+    s.frame.method = METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
     for (int m = 0; m < 2; m++) {
         s.frame.method = m == 0 ? METHOD_PAPER : METHOD_TABULATED_Z;
@@ -342,7 +342,7 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     s.frame.bands = bands;
     /* the tabulation loses the digits of far lights, and Diracs wholly */
     s.frame.light_count -= KINDS;
-    s.frame.method = METHOD_ZONAL;
+    s.frame.method = METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
     s.frame.method = METHOD_TABULATED_Z;
     draw(s.renderer, &s.frame, second);
@@ -354,7 +354,7 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     };
     s.frame.lights = &around;
     s.frame.light_count = 1;
-    s.frame.method = METHOD_ZONAL;
+    s.frame.method = METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
     s.frame.method = METHOD_TABULATED_Z;
     draw(s.renderer, &s.frame, second);
@@ -399,11 +399,11 @@ int main(int count, char **arguments) {
         cmocka_unit_test(an_environment_is_drawn_alike),
     };
     const struct CMUnitTest few[] = {
-        cmocka_unit_test(preintegrated_images_of_few_bands_are_those_of_coefficients),
+        cmocka_unit_test(preintegrated_images_of_few_bands_are_those_of_sums),
         cmocka_unit_test(a_hundred_bands_are_drawn_alike_by_sums_and_by_tables),
     };
     const struct CMUnitTest many[] = {
-        cmocka_unit_test(preintegrated_images_of_many_bands_are_those_of_coefficients),
+        cmocka_unit_test(preintegrated_images_of_many_bands_are_those_of_sums),
     };
     const struct CMUnitTest tables[] = {
         cmocka_unit_test(tabulated_materials_are_drawn_alike_by_sums_and_by_tables),

@@ -5,17 +5,19 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The library's images by the field and by all lights: within a hundredth of the local peak. */
-static difference differ_from_sums(gpu_renderer *renderer, render_frame *frame,
-                                   shade_field *field) {
+/* The library's images by the field and by all lights, in parts of the local peak: the field's own
+ * error, and what the bands of far lights lack of the diffuse lobe, which is exact by sums. */
+static void differ_from_sums(gpu_renderer *renderer, render_frame *frame, shade_field *field,
+                             double worst, double rms) {
     frame->host = shade_frame;
     image by_field = render_by(renderer, frame, METHOD_FIELD, field);
     image by_sums = render_by(renderer, frame, METHOD_ZONAL, NULL);
     const difference d = differ(&by_field, &by_sums);
     image_free(&by_field);
     image_free(&by_sums);
-    assert_true(!(d.worst > 0.01) && !(d.rms > 0.001));
-    return d;
+    print_message("%d bands: at most %.4f of the local peak, %.5f in root mean square\n",
+                  frame->bands, d.worst, d.rms);
+    assert_true(!(d.worst > worst) && !(d.rms > rms));
 }
 
 static void a_thousand_lights_look_as_their_sums_do(void **state) {
@@ -27,9 +29,7 @@ static void a_thousand_lights_look_as_their_sums_do(void **state) {
         render_frame frame = frame_of(&world, WIDTH, HEIGHT);
         shade_field *field = open_field(bands[i], false);
         frame.bands = bands[i];
-        const difference d = differ_from_sums(renderer, &frame, field);
-        print_message("%d bands: at most %.4f of the local peak, %.5f in root mean square\n",
-                      bands[i], d.worst, d.rms);
+        differ_from_sums(renderer, &frame, field, 0.012, 0.002);
         shade_field_destroy(field);
     }
     gpu_renderer_destroy(renderer);
@@ -42,7 +42,7 @@ static void every_kind_of_light_is_drawn(void **state) {
     gpu_renderer *renderer = open_renderer(&world);
     render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     shade_field *field = open_field(frame.bands, false);
-    differ_from_sums(renderer, &frame, field);
+    differ_from_sums(renderer, &frame, field, 0.015, 0.003);
     shade_field_destroy(field);
     gpu_renderer_destroy(renderer);
     scene_free(&world);

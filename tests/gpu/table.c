@@ -27,7 +27,9 @@ static double difference(gpu_renderer *renderer, const render_frame *frame, int 
         lights[i] = frame->lights[i].emitter;
     image drawn = render_image(renderer, frame);
     render_pixel *pixels = render_pixels(renderer, frame);
-    const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };
+    const lmp_shade_settings settings = { .method = method_table[frame->method].method,
+                                          .bands = frame->bands,
+                                          .window = frame->window };
     double worst = 0, peak = 0;
     *by_table = 0;
     for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {

@@ -16,8 +16,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#define GOLDEN_BALLS  0x2870260920f338d4
-#define GOLDEN_ATRIUM 0x0950f83c056e0206
+#define GOLDEN_BALLS  0x06a38cb69703cea7
+#define GOLDEN_ATRIUM 0xe4fb622706efb6c6
 
 enum { WIDTH = 80, HEIGHT = 45, BANDS = 6 };
 

@@ -281,21 +281,19 @@ static void long_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
     out->at[-1] = 0;
 }
 
-static void wrong_shade_zonal(int bands, const float *window, const float *diffuse,
-                              const lmp_kernel_surfaces *surfaces, const lmp_packed_light *lights,
-                              size_t light_count, size_t count,
+static void wrong_shade_zonal(int bands, const float *window, const lmp_kernel_surfaces *surfaces,
+                              const lmp_packed_light *lights, size_t light_count, size_t count,
                               const lmp_kernel_accumulated *accumulated) {
-    honest.shade_zonal(bands, window, diffuse, surfaces, lights, light_count, count, accumulated);
+    honest.shade_zonal(bands, window, surfaces, lights, light_count, count, accumulated);
     spoil_accumulated(accumulated);
 }
 static void wrong_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe *lobe,
-                                           const lmp_kernel_lobe_positions *diffuse,
                                            const lmp_kernel_lobe_positions *specular,
                                            const lmp_kernel_surfaces *surfaces,
                                            const lmp_packed_light *lights, size_t light_count,
                                            size_t count,
                                            const lmp_kernel_accumulated *accumulated) {
-    honest.shade_preintegrated_lobe(lobe, diffuse, specular, surfaces, lights, light_count, count,
+    honest.shade_preintegrated_lobe(lobe, specular, surfaces, lights, light_count, count,
                                     accumulated);
     spoil_accumulated(accumulated);
 }

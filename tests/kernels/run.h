@@ -235,17 +235,13 @@ static void call_shading(const lmp_kernels *k, kind which, const shading *s, siz
                                           s->density[lobe], s->angle[lobe] };
     }
     const lmp_kernel_preintegrated_lobe table = { s->pairs };
-    const lmp_kernel_lobe_positions diffuse = { s->diffuse_first, s->diffuse_columns,
-                                                s->diffuse_weights[0], s->diffuse_weights[1],
-                                                s->diffuse_weights[2] };
     if (which == SHADE_FIELD)
         k->shade_field(s->bands, s->window, s->diffuse, &surfaces, &s->sh, count, &sums);
     else if (is_zonal(which))
-        k->shade_zonal(s->bands, s->window, s->diffuse, &surfaces, s->lights, SHADE_LIGHTS, count,
-                       &sums);
+        k->shade_zonal(s->bands, s->window, &surfaces, s->lights, SHADE_LIGHTS, count, &sums);
     else if (which != SHADE_PREINTEGRATED_BRDF)
-        k->shade_preintegrated_lobe(&table, &diffuse, positions, &surfaces, s->lights, SHADE_LIGHTS,
-                                    count, &sums);
+        k->shade_preintegrated_lobe(&table, positions, &surfaces, s->lights, SHADE_LIGHTS, count,
+                                    &sums);
     else
         k->shade_preintegrated_brdf(&s->brdf, &surfaces, s->lights, SHADE_LIGHTS, s->ambient, count,
                                     sums.diffuse);

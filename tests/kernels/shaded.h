@@ -126,25 +126,33 @@ static void phong_of(int bands, double e, double *lambda) {
                              : lambda[l - 2] * (e - l + 2) / (e + l + 1);
 }
 
-/* By bands: dot products with all lobes' coefficients. */
+/* The diffuse lobe, of integral 1. */
+static void add_diffuse(const seen *surface, const seen_light *one, lmp_rgb color, shaded *to) {
+    const double cosine = dot3(surface->normal, one->axis);
+    double value = one->solid_angle * fmax(cosine, 0) / ORACLE_PI;
+    if (!one->dirac) {
+        const double cap = oracle_irradiance(cosine, one->t) / ORACLE_PI;
+        value = one->inside ? 1 - cap : cap;
+    }
+    shaded_add(to, 0, color, (double[3]) { value, value, value });
+    to->bound += one->rounded * 1e-6 + surface_bound(one->alpha2);
+}
+
+/* Phong lobes by bands: dot products with their coefficients. */
 static void expect_zonal(const shading *s, int i, shaded *to) {
-    enum { LOBES = 1 + LMP_KERNEL_LOBES_MAX };
-    static double sh[128 * 128], around[LOBES][128 * 128], lambda[LOBES][128];
+    static double sh[128 * 128], around[LMP_KERNEL_LOBES_MAX][128 * 128];
+    static double lambda[LMP_KERNEL_LOBES_MAX][128];
     seen surface;
     double size = 0;
     see(s, i, &surface);
-    oracle_sh_eval(s->bands, surface.normal, around[0]);
-    for (int l = 0; l < s->bands; l++)
-        lambda[0][l] = (double)s->diffuse[l];
     for (int k = 0; k < s->lobes; k++) {
-        oracle_sh_eval(s->bands, surface.axis[k], around[1 + k]);
-        phong_of(s->bands, (double)s->exponent[k][i], lambda[1 + k]);
-    }
-    for (int k = 0; k <= s->lobes; k++)
+        oracle_sh_eval(s->bands, surface.axis[k], around[k]);
+        phong_of(s->bands, (double)s->exponent[k][i], lambda[k]);
         for (int l = 0; l < s->bands; l++) {
             lambda[k][l] *= (double)s->window[l];
             size += fabs(lambda[k][l]) * (2 * l + 1);
         }
+    }
     *to = (shaded) { { 0 }, 0 };
     for (int light = 0; light < SHADE_LIGHTS; light++) {
         seen_light one;
@@ -152,9 +160,10 @@ static void expect_zonal(const shading *s, int i, shaded *to) {
         if (one.nothing)
             continue;
         light_sh(s->bands, &one, sh);
-        for (int lobe = 0; lobe <= s->lobes; lobe++) {
-            const double value = lobe_of(s->bands, lambda[lobe], sh, around[lobe]);
-            shaded_add(to, 3 * lobe, s->lights[light].color, (double[3]) { value, value, value });
+        add_diffuse(&surface, &one, s->lights[light].color, to);
+        for (int k = 0; k < s->lobes; k++) {
+            const double value = lobe_of(s->bands, lambda[k], sh, around[k]);
+            shaded_add(to, 3 + 3 * k, s->lights[light].color, (double[3]) { value, value, value });
         }
         to->bound += 4e-7 + (1e-9 + 0.05 * surface_bound(one.alpha2)) * size;
         if (one.dirac) /* no band of it is damped: what shade.h says of a peak */
@@ -212,16 +221,13 @@ static void expect_preintegrated_lobe(const shading *s, int i, shaded *to) {
         see_light(s, &surface, light, &one);
         if (one.nothing)
             continue;
-        for (int lobe = 0; lobe <= s->lobes; lobe++) {
-            const int k = lobe ? lobe - 1 : 0;
-            const float position[3] = { lobe ? s->weight[k][i] : s->diffuse_weights[0][0],
-                                        lobe ? s->density[k][i] : s->diffuse_weights[1][0],
-                                        lobe ? s->angle[k][i] : s->diffuse_weights[2][0] };
-            const double cosine = dot3(lobe ? surface.axis[k] : surface.normal, one.axis);
+        add_diffuse(&surface, &one, s->lights[light].color, to);
+        for (int k = 0; k < s->lobes; k++) {
+            const float position[3] = { s->weight[k][i], s->density[k][i], s->angle[k][i] };
+            const double cosine = dot3(surface.axis[k], one.axis);
             const double mean =
-                read_lobe(s, lobe ? s->first[k][i] : s->diffuse_first[0],
-                          lobe ? s->columns[k][i] : s->diffuse_columns[0], position, cosine, one.t);
-            add_mean(&one, &s->lights[light], 3 * lobe, (double[3]) { mean, mean, mean },
+                read_lobe(s, s->first[k][i], s->columns[k][i], position, cosine, one.t);
+            add_mean(&one, &s->lights[light], 3 + 3 * k, (double[3]) { mean, mean, mean },
                      (double[3]) { 1, 1, 1 }, to);
             /* acos near 1 has half of the digits, where the response is flat */
             const double density = (double)position[1];

@@ -31,8 +31,6 @@ typedef struct shading {
     _Alignas(64) float weight[LMP_KERNEL_LOBES_MAX][COUNT + 16];
     _Alignas(64) float density[LMP_KERNEL_LOBES_MAX][COUNT + 16];
     _Alignas(64) float angle[LMP_KERNEL_LOBES_MAX][COUNT + 16];
-    _Alignas(64) uint32_t diffuse_first[16], diffuse_columns[16];
-    _Alignas(64) float diffuse_weights[3][16];
 
     lmp_kernel_slice slices[VIEWS * CAPS];
     float view_remap[VIEW_STEPS + 1], cap_remap[CAP_STEPS + 1];
@@ -108,13 +106,6 @@ static void make_preintegrated_lobe(shading *s) {
         s->weight[0][i] = 0.5f + grid(1.0f / 2048);
         s->density[0][i] = (float)steps[k] * (float)(1 / ORACLE_PI);
         s->angle[0][i] = 1.25f + grid(1.0f / 1024);
-    }
-    for (int i = 0; i < 16; i++) {
-        s->diffuse_first[i] = s->first[0][1];
-        s->diffuse_columns[i] = s->columns[0][1];
-        s->diffuse_weights[0][i] = s->weight[0][1];
-        s->diffuse_weights[1][i] = s->density[0][1];
-        s->diffuse_weights[2][i] = s->angle[0][1];
     }
 }
 

@@ -269,6 +269,37 @@ static sample vmf_sample(long double s, double concentration) {
     return (sample) { end * k * sinl(theta) * expl(-y) / -expm1l(-2 * k), 1 - 2 * half * half };
 }
 
+/* The integral of max(a + b cos phi, 0) over a turn, b >= 0. */
+static double above_horizon(double a, double b) {
+    if (a >= b)
+        return 2 * pi * a;
+    if (a <= -b)
+        return 0;
+    const double end = acos(-a / b);
+    return 2 * (a * end + b * sin(end));
+}
+
+double oracle_irradiance(double cosine, double one_minus_cos) {
+    enum { NODES = 64 };
+    static double x[NODES], weight[NODES];
+    double sum = 0;
+    const double sine = sqrt(fmax((1 - cosine) * (1 + cosine), 0));
+    const double end = 2 * asin(sqrt(one_minus_cos / 2)), kink = atan2(fabs(cosine), sine);
+    /* Circles around the axis; the horizon begins and ends to cut them at the kinks. */
+    const double ends[4] = { 0, fmin(kink, end), fmin(pi - kink, end), end };
+    if (weight[0] == 0)
+        oracle_gauss_legendre(NODES, x, weight);
+    for (int piece = 0; piece < 3; piece++)
+        for (int i = 0; i < NODES; i++) {
+            const double length = ends[piece + 1] - ends[piece], t = (1 + x[i]) / 2;
+            /* Slow at both ends, where derivatives are infinite. */
+            const double angle = ends[piece] + length * t * t * (3 - 2 * t);
+            sum += 3 * length * t * (1 - t) * weight[i] * sin(angle) *
+                   above_horizon(cosine * cos(angle), sine * sin(angle));
+        }
+    return sum;
+}
+
 void oracle_lobe_diffuse(int bands, double *lambda) {
     double x[ORACLE_BANDS_MAX], weight[ORACLE_BANDS_MAX], p[ORACLE_BANDS_MAX];
     const int nodes = bands / 2 + 1;

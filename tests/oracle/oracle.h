@@ -29,6 +29,10 @@ void oracle_project(int bands, oracle_function function, void *user, int nodes, 
  * Y_l0 over the cap. */
 void oracle_cap_zonal(int bands, double one_minus_cos, double *zonal);
 
+/* Irradiance of a surface whose normal has this cosine with the axis of a cap of radiance 1, by
+ * quadrature over the cap: what lies below the horizon does not count. */
+double oracle_irradiance(double cosine, double one_minus_cos);
+
 /* Coefficients of a cap around `axis` by quadrature over the cap itself, in two dimensions. */
 void oracle_cap(int bands, const double axis[3], double one_minus_cos, double *sh);
 

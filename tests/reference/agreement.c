@@ -20,6 +20,8 @@ static image draw_by_harmonics(const scene *world, const reference_settings *set
     const render_frame frame = { .width = WIDTH,
                                  .height = HEIGHT,
                                  .camera = settings->camera,
+                                 .method =
+                                     METHOD_COEFFICIENTS, /* truncates the diffuse lobe, too */
                                  .bands = settings->band_limit.bands,
                                  .window = settings->band_limit.window,
                                  .lights = world->lights,

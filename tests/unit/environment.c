@@ -77,9 +77,13 @@ static void a_slope_is_reflected_as_the_lobes_keep_it(void **state) {
     }
 }
 
-/* Σ lambda_l window_l L_lm Y_lm of both lobes, by the oracle. */
-static void expect_sums(int bands, bool hanning, const lmp_surface *s, const lmp_environment *e,
-                        double sums[3]) {
+/* Σ lambda_l window_l L_lm Y_lm of both lobes, by the oracle; the window is the specular one's, and
+ * by coefficients the diffuse one's, too. */
+static void expect_sums(const lmp_shade_settings *settings, const lmp_surface *s,
+                        const lmp_environment *e, double sums[3]) {
+    const int bands = settings->bands;
+    const bool windowed[2] = { settings->window && settings->method == LMP_SHADE_COEFFICIENTS,
+                               settings->window != LMP_WINDOW_NONE };
     static double basis[128 * 128], lambda[128];
     const lmp_vec3 axes[2] = { s->normal, mirrored(s) };
     const lmp_rgb weights[2] = { painted.diffuse, painted.specular };
@@ -96,7 +100,7 @@ static void expect_sums(int bands, bool hanning, const lmp_surface *s, const lmp
                 for (int m = -l; m <= l; m++)
                     sums[c] +=
                         (k == 0 ? 1 / ORACLE_PI : 1) * (double)(&weights[k].r)[c] * lambda[l] *
-                        (hanning ? (1 + cos(ORACLE_PI * l / bands)) / 2 : 1) *
+                        (windowed[k] ? (1 + cos(ORACLE_PI * l / bands)) / 2 : 1) *
                         basis[LMP_SH_INDEX(l, m)] *
                         (double)e->sh[(size_t)c * LMP_SH_COUNT(e->bands) + LMP_SH_INDEX(l, m)];
     }
@@ -111,12 +115,14 @@ static void any_environment_matches_the_definition(void **state) {
         for (int n = 0; n < 20; n++) {
             const lmp_environment e = { sh, counts[i][1] };
             const lmp_surface surface = random_surface();
-            const lmp_shade_settings settings = { .bands = counts[i][0],
-                                                  .window = n % 2 ? LMP_WINDOW_HANNING
-                                                                  : LMP_WINDOW_NONE };
+            const lmp_shade_settings settings = {
+                .bands = counts[i][0],
+                .method = n % 4 < 2 ? LMP_SHADE_ZONAL : LMP_SHADE_COEFFICIENTS,
+                .window = n % 2 ? LMP_WINDOW_HANNING : LMP_WINDOW_NONE
+            };
             double sums[3];
             random_coefficients(e.bands, sh);
-            expect_sums(settings.bands, n % 2, &surface, &e, sums);
+            expect_sums(&settings, &surface, &e, sums);
             const lmp_rgb color = lmp_shade_environment(&settings, &painted, &surface, &e);
             for (int c = 0; c < 3; c++)
                 check_errors_add(&errors, fabs((double)(&color.r)[c] - fmax(sums[c], 0)));
@@ -150,7 +156,8 @@ static void an_environment_of_lights_shines_as_they_do(void **state) {
         surface.tangent = check_random_direction();
         lmp_light_project(10, lights, 2, surface.position, sh);
         const lmp_environment e = { sh, 10 };
-        const lmp_rgb a = lmp_shade(NULL, &materials[i % 2], &surface, lights, 2);
+        const lmp_shade_settings settings = { .method = LMP_SHADE_COEFFICIENTS };
+        const lmp_rgb a = lmp_shade(&settings, &materials[i % 2], &surface, lights, 2);
         const lmp_rgb b = lmp_shade_environment(NULL, &materials[i % 2], &surface, &e);
         for (int c = 0; c < 3; c++)
             CHECK_WITHIN(fabs((double)(&a.r)[c] - (double)(&b.r)[c]), 1e-5);

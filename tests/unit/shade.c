@@ -137,10 +137,24 @@ static double reflect_by_definition(int bands, const double *window, const defin
     return sum;
 }
 
-/* Of sphere lights, by the oracle. */
-static void shade_by_definition(int bands, const double *window, const lmp_material *material,
-                                const lmp_surface *surface, const lmp_light *lights, int count,
-                                double color[3]) {
+/* Irradiance of a surface that faces `normal`, of a sphere of radiance 1. */
+static double irradiance_by_definition(const double center[3], double radius, const double point[3],
+                                       const double normal[3]) {
+    double along = 0, d2 = 0;
+    for (int k = 0; k < 3; k++) {
+        along += (center[k] - point[k]) * normal[k];
+        d2 += (center[k] - point[k]) * (center[k] - point[k]);
+    }
+    const double d = sqrt(d2), sine = d < radius ? d / radius : radius / d;
+    const double cosine = sqrt(1 - sine * sine);
+    return oracle_irradiance(along / d, d < radius ? 1 + cosine : sine * sine / (1 + cosine));
+}
+
+/* Of sphere lights, by the oracle: Phong lobes truncated and windowed, the diffuse one, too, by
+ * coefficients and else whole. */
+static void shade_by_definition(lmp_shade_method method, int bands, const double *window,
+                                const lmp_material *material, const lmp_surface *surface,
+                                const lmp_light *lights, int count, double color[3]) {
     static double light[1600];
     defined_lobe lobes[DEFINED_LOBES];
     const int lobe_count = define_lobes(material, surface, lobes);
@@ -151,7 +165,11 @@ static void shade_by_definition(int bands, const double *window, const lmp_mater
         widen(&lights[i].radiance.r, radiance);
         oracle_sphere(bands, center, (double)lights[i].radius, point, light, NULL);
         for (int k = 0; k < lobe_count; k++) {
-            const double reflected = reflect_by_definition(bands, window, &lobes[k], light);
+            const double reflected =
+                lobes[k].diffuse && method != LMP_SHADE_COEFFICIENTS
+                    ? irradiance_by_definition(center, (double)lights[i].radius, point,
+                                               lobes[k].axis)
+                    : reflect_by_definition(bands, window, &lobes[k], light);
             for (int c = 0; c < 3; c++)
                 sum[c] += lobes[k].weight[c] * radiance[c] * reflected;
         }
@@ -176,17 +194,21 @@ static void both_methods_agree_with_the_definition(void **state) {
             double window[40], expected[3];
             for (int l = 0; l < counts[i]; l++)
                 window[l] = j % 2 ? (1 + cos(ORACLE_PI * l / counts[i])) / 2 : 1;
-            shade_by_definition(counts[i], window, &material, &surface, lights, 6, expected);
             float channels[3];
             const lmp_shade_settings coefficients = by_coefficients(&settings);
+            shade_by_definition(LMP_SHADE_COEFFICIENTS, counts[i], window, &material, &surface,
+                                lights, 6, expected);
             to_array(lmp_shade(&coefficients, &material, &surface, lights, 6), channels);
             CHECK_WITHIN(difference(expected, channels), 1e-5);
+            shade_by_definition(LMP_SHADE_ZONAL, counts[i], window, &material, &surface, lights, 6,
+                                expected);
             to_array(lmp_shade(&settings, &material, &surface, lights, 6), channels);
             CHECK_WITHIN(difference(expected, channels), 1e-5);
         }
     }
 }
 
+/* Of the diffuse lobe (unit.irradiance) coefficients have the bands alone. */
 static void both_methods_agree_for_every_kind_of_light(void **state) {
     (void)state;
     for (int trial = 0; trial < 30; trial++) {
@@ -201,7 +223,8 @@ static void both_methods_agree_for_every_kind_of_light(void **state) {
             lights[i].ground = random_color();
         }
         const lmp_surface surface = random_surface();
-        const lmp_material material = two_lobes((float)(trial * trial));
+        lmp_material material = two_lobes((float)(trial * trial));
+        material.diffuse = (lmp_rgb) { 0, 0, 0 };
         float zonal[3], coefficients[3];
         double expected[3];
         const lmp_shade_settings settings = by_coefficients(NULL);
@@ -311,9 +334,10 @@ static void metallic_roughness_is_shaded_by_the_lobes_of_ggx(void **state) {
         lmp_light lights[3];
         float channels[3];
         random_spheres(3, lights);
-        shade_by_definition(settings.bands, window, &material, &surface, lights, 3, expected);
         for (int method = LMP_SHADE_ZONAL; method <= LMP_SHADE_COEFFICIENTS; method++) {
             settings.method = (lmp_shade_method)method;
+            shade_by_definition(settings.method, settings.bands, window, &material, &surface,
+                                lights, 3, expected);
             to_array(lmp_shade(&settings, &material, &surface, lights, 3), channels);
             CHECK_WITHIN(difference(expected, channels), 2e-5);
             lmp_shade_n(&settings, &one, 1, lights, 3, 0, channels);

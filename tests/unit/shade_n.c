@@ -92,8 +92,9 @@ static lmp_rgb by_bands(const vertex *v, const void *settings) {
     return lmp_shade(settings, &v->material, &v->surface, lights, LIGHTS);
 }
 
-/* Straight from lmp_preintegrated_lobe_eval, light by light. */
+/* Straight from lmp_preintegrated_lobe_eval and lmp_light_irradiance, light by light. */
 static lmp_rgb by_lobe_table(const vertex *v, const void *lobe) {
+    const float pi = 3.14159265f;
     const lmp_vec3 n = v->surface.normal, e = v->surface.view;
     const float twice = 2 * (n.x * e.x + n.y * e.y + n.z * e.z);
     const lmp_vec3 r = { twice * n.x - e.x, twice * n.y - e.y, twice * n.z - e.z };
@@ -102,17 +103,13 @@ static lmp_rgb by_lobe_table(const vertex *v, const void *lobe) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], v->surface.position, &cap);
         const lmp_vec3 w = cap.axis;
-        const float diffuse = lmp_preintegrated_lobe_eval(lobe, 1, cap.one_minus_cos,
-                                                          n.x * w.x + n.y * w.y + n.z * w.z);
+        const lmp_rgb facing = lmp_light_irradiance(&lights[i], 1, v->surface.position, n);
         const float specular = lmp_preintegrated_lobe_eval(
             lobe, v->material.exponent, cap.one_minus_cos, r.x * w.x + r.y * w.y + r.z * w.z);
         const lmp_rgb d = v->material.diffuse, s = v->material.specular;
-        sum[0] += (double)(cap.strength.r * (d.r * diffuse + s.r * specular) +
-                           cap.ambient.r * (d.r + s.r));
-        sum[1] += (double)(cap.strength.g * (d.g * diffuse + s.g * specular) +
-                           cap.ambient.g * (d.g + s.g));
-        sum[2] += (double)(cap.strength.b * (d.b * diffuse + s.b * specular) +
-                           cap.ambient.b * (d.b + s.b));
+        sum[0] += (double)(d.r * facing.r / pi + s.r * (cap.strength.r * specular + cap.ambient.r));
+        sum[1] += (double)(d.g * facing.g / pi + s.g * (cap.strength.g * specular + cap.ambient.g));
+        sum[2] += (double)(d.b * facing.b / pi + s.b * (cap.strength.b * specular + cap.ambient.b));
     }
     return (lmp_rgb) { (float)fmax(sum[0], 0), (float)fmax(sum[1], 0), (float)fmax(sum[2], 0) };
 }

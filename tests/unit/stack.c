@@ -163,6 +163,7 @@ static void shade_under_a_field(void) {
     X(lmp_sh_dot_n, LAYOUTS(lmp_sh_dot_n(N, sh, sh, COUNT, layout, 0, rgb))) \
     X(lmp_sh_rotate_n, LAYOUTS(lmp_sh_rotate_n(N, matrices, sh, COUNT, layout, 0, out))) \
     X(lmp_light_cap, lmp_light_cap(lights, at, &cap)) \
+    X(lmp_light_irradiance, lmp_light_irradiance(lights, LIGHTS, at, up)) \
     X(lmp_light_zonal, lmp_light_zonal(N, lights, at, lambda, &vectors[0])) \
     X(lmp_light_project, lmp_light_project(N, lights, LIGHTS, at, out)) \
     X(lmp_light_project_channels, lmp_light_project_channels(N, lights, LIGHTS, at, out, NULL, slopes)) \

@@ -70,18 +70,11 @@ static double pole(int l) {
     return sqrt((2.0 * l + 1) / (4 * pi));
 }
 
-/* --- zonal sums: P_l = t_l u P_(l-1) - d_l P_(l-2), in monic form t = 1 ----------------------- */
-
-static double zonal_t(int form, int l) {
-    return form ? 1 : (2 * l - 1) / (double)l;
-}
+/* --- zonal sums, in monic form: P_l = u P_(l-1) - c_l P_(l-2) ----------------------------------
+ */
 
 static double zonal_lobe(int l) {
     return l < 2 ? 0 : (l - 1) * (l - 1) / (double)((2 * l - 1) * (2 * l - 3));
-}
-
-static double zonal_d(int form, int l) {
-    return form ? zonal_lobe(l) : (l - 1) / (double)l;
 }
 
 /* R_l = (2l-1)/(l+1) x R_(l-1) - (l-2)/(l+1) R_(l-2) */
@@ -96,23 +89,6 @@ static double zonal_scale(int form, int l) {
         norm_r *= k < 2 ? 1 : (2 * k - 1) / (double)(k + 1);
     }
     return (l == 0 ? 0.5 : (2 * l + 1) / 4.0) * norm_p * norm_r;
-}
-
-static double even_a(int form, int l) {
-    return l < 2 ? 0 : zonal_t(form, l) * zonal_t(form, l - 1);
-}
-
-/* What the step before the two adds, of P_(l-2). */
-static double even_down(int form, int l) {
-    return l < 4 ? 0 : zonal_t(form, l) * zonal_d(form, l - 1) / zonal_t(form, l - 2);
-}
-
-static double even_b(int form, int l) {
-    return l < 2 ? 0 : even_down(form, l) + zonal_d(form, l);
-}
-
-static double even_c(int form, int l) {
-    return l < 4 ? 0 : even_down(form, l) * zonal_d(form, l - 2);
 }
 
 /* --- triple products -------------------------------------------------------------------------- */
@@ -255,15 +231,6 @@ static void print_bands(const char *name, double (*entry)(int l)) {
     printf("\n};\n");
 }
 
-static void print_even(const char *name, double (*entry)(int form, int l)) {
-    printf("\nconst float lmp_table_even_%s[2][LMP_BANDS_MAX / 2] = { {", name);
-    for (int form = 0; form < 2; form++) {
-        for (int l = 0; l < LMP_BANDS_MAX; l += 2)
-            print_value(l / 2, entry(form, l));
-        printf(form ? "\n} };\n" : "\n}, {");
-    }
-}
-
 static void print_scale(void) {
     printf("\nconst double lmp_table_zonal_scale[2][LMP_BANDS_MAX] = { {");
     for (int form = 0; form < 2; form++) {
@@ -291,9 +258,6 @@ int main(void) {
     print_scale();
     print_bands("zonal_cap", zonal_cap);
     print_bands("zonal_lobe", zonal_lobe);
-    print_even("a", even_a);
-    print_even("b", even_b);
-    print_even("c", even_c);
     print_bands("pole", pole);
     print_triples();
     return 0;
