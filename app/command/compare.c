@@ -12,7 +12,7 @@
 typedef struct compare_arguments {
     const char *paths[2]; /* image, reference */
     const char *heat_map;
-    float heat_scale;
+    float heat_scale, heat_percentile;
     cli_list limits; /* METRIC=VALUE */
     bool json;
     int pixels_max;
@@ -64,8 +64,13 @@ static void print_json_number(double value) {
         printf(isnan(value) ? "null" : value > 0 ? "\"infinite\"" : "\"-infinite\"");
 }
 
+/* What the heat map shows as white, and why. */
+typedef struct heat_white {
+    double value, percentile; /* percentile: 0 where --heatmap-scale names the difference */
+} heat_white;
+
 static void print(const compare_arguments *arguments, const image *pixels,
-                  const compare_result *result, double white) {
+                  const compare_result *result, const heat_white *white) {
     const char *space = is_exr(arguments->paths[1]) ? "linear" : "display";
     if (arguments->json) {
         printf("{ \"width\": %d, \"height\": %d, \"space\": \"%s\"", pixels->width, pixels->height,
@@ -75,7 +80,8 @@ static void print(const compare_arguments *arguments, const image *pixels,
             print_json_number(result->values[m]);
         }
         if (arguments->heat_map)
-            printf(", \"heatmap_white\": %.9g", white);
+            printf(", \"heatmap_white\": %.9g, \"heatmap_percentile\": %.9g", white->value,
+                   white->percentile);
         printf(", \"max_pixel\": [%d, %d], \"bad_values\": %zu }\n", result->max_x, result->max_y,
                result->bad_values);
         return;
@@ -87,28 +93,29 @@ static void print(const compare_arguments *arguments, const image *pixels,
             printf(" at pixel %d,%d", result->max_x, result->max_y);
         printf("\n");
     }
-    if (arguments->heat_map)
-        printf("heatmap black is 0, white %.6g\n", white);
+    if (!arguments->heat_map)
+        return;
+    printf("heatmap black is 0, white %.6g", white->value);
+    if (white->percentile > 0)
+        printf(", which %g %% of the pixels do not exceed", white->percentile);
+    printf("\n");
 }
 
 /* --- the heat map ----------------------------------------------------------------------------- */
 
 /* Under the map: the colors from 0 to the difference that is white, and numbers under them. */
-enum {
-    LEGEND = 28,
-    RAMP_TOP = 6,
-    RAMP_BOTTOM = 14,
-    LEGEND_MARGIN = 4,
-    LETTERS = 7,
-    LETTER_WIDTH = 6
-};
+enum { LEGEND = 28, RAMP_TOP = 6, RAMP_BOTTOM = 14, LEGEND_MARGIN = 4, ROOM_FOR_WORDS = 320 };
 
-static void draw_numbers(double white, image *legend) {
+/* The last says which percentile it is, where there is room. */
+static void draw_numbers(const heat_white *white, image *legend) {
     static const double parts[] = { 0, 0.5, 1 };
     const int ramp = legend->width - 2 * LEGEND_MARGIN;
     for (int i = 0; i < 3; i++) {
-        char text[32];
-        snprintf(text, sizeof text, "%.3g", parts[i] * white);
+        char text[48];
+        const int length = snprintf(text, sizeof text, "%.3g", parts[i] * white->value);
+        if (i == 2 && white->percentile > 0 && legend->width >= ROOM_FOR_WORDS)
+            snprintf(text + length, sizeof text - (size_t)length, " (%g %% below)",
+                     white->percentile);
         const int width = FIGURE_LETTER_WIDTH * (int)strlen(text);
         const int left = LEGEND_MARGIN + (int)(parts[i] * (ramp - width));
         figure_text(legend, (figure_box) { left, RAMP_BOTTOM, width, LEGEND - RAMP_BOTTOM },
@@ -116,7 +123,7 @@ static void draw_numbers(double white, image *legend) {
     }
 }
 
-static bool draw_legend(double white, int width, unsigned char *rgb8, cli_error *error) {
+static bool draw_legend(const heat_white *white, int width, unsigned char *rgb8, cli_error *error) {
     image numbers;
     if (!image_create(&numbers, width, LEGEND, error))
         return false;
@@ -132,16 +139,33 @@ static bool draw_legend(double white, int width, unsigned char *rgb8, cli_error 
     return true;
 }
 
-/* *white receives the difference that is white. */
-static bool write_heat_map(const compare_arguments *arguments, const image images[2], double *white,
-                           cli_error *error) {
+/* A few pixels, such as the edge of a lamp, would leave all others black if the largest difference
+ * were white: a percentile is, unless it is 0. */
+static bool choose_white(const compare_arguments *arguments, const image images[2],
+                         heat_white *white) {
+    *white = (heat_white) { (double)arguments->heat_scale, 0 };
+    if (white->value > 0)
+        return true;
+    white->percentile = (double)arguments->heat_percentile;
+    if (!compare_difference_percentile(&images[0], &images[1], white->percentile, &white->value))
+        return false;
+    if (white->value > 0)
+        return true;
+    white->percentile = 100;
+    return compare_difference_percentile(&images[0], &images[1], 100, &white->value);
+}
+
+static bool write_heat_map(const compare_arguments *arguments, const image images[2],
+                           heat_white *white, cli_error *error) {
     const int width = images[0].width, height = images[0].height;
     const size_t row = 3 * (size_t)width;
     unsigned char *rgb8 = malloc(row * ((size_t)height + LEGEND));
-    if (!rgb8)
+    if (!rgb8 || !choose_white(arguments, images, white)) {
+        free(rgb8);
         return cli_fail(error, NULL, "out of memory");
-    *white = compare_heat_map(&images[0], &images[1], (double)arguments->heat_scale, rgb8);
-    const bool ok = draw_legend(*white, width, rgb8 + row * (size_t)height, error) &&
+    }
+    compare_heat_map(&images[0], &images[1], white->value, rgb8);
+    const bool ok = draw_legend(white, width, rgb8 + row * (size_t)height, error) &&
                     image_write_png8(rgb8, width, height + LEGEND, arguments->heat_map, error);
     free(rgb8);
     return ok;
@@ -161,7 +185,7 @@ static bool judge_shown(image images[2], bool linear, compare_result *result, cl
 static bool compare(const compare_arguments *arguments, const limit *limits, image images[2],
                     int *status, cli_error *error) {
     compare_result result;
-    double white = 0;
+    heat_white white = { 0, 0 };
     const bool linear = is_exr(arguments->paths[1]);
     for (int i = 0; i < 2; i++) {
         if (!image_read(arguments->paths[i], arguments->pixels_max, &images[i], error))
@@ -175,7 +199,7 @@ static bool compare(const compare_arguments *arguments, const limit *limits, ima
         return false;
     if (!result.bad_values && !judge_shown(images, linear, &result, error))
         return false;
-    print(arguments, &images[0], &result, white);
+    print(arguments, &images[0], &result, &white);
     if (result.bad_values)
         return cli_fail(error, NULL, "%zu values are not finite numbers, the first at pixel %d,%d",
                         result.bad_values, result.max_x, result.max_y);
@@ -189,7 +213,7 @@ static bool compare(const compare_arguments *arguments, const limit *limits, ima
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    compare_arguments a = { .heat_scale = 0, .pixels_max = IMAGE_READ_PIXELS };
+    compare_arguments a = { .heat_percentile = 99, .pixels_max = IMAGE_READ_PIXELS };
     const cli_option options[] = {
         { .name = "fail-above",
           .kind = CLI_LIST,
@@ -208,9 +232,16 @@ static int run(const cli_command *command, int argc, char **argv) {
           .kind = CLI_FLOAT,
           .target = &a.heat_scale,
           .argument = "D",
-          .help = "the difference shown as white; 0 means the largest",
+          .help = "the difference shown as white; 0 means that of --heatmap-percentile",
           .minimum = 0,
           .maximum = 1e30 },
+        { .name = "heatmap-percentile",
+          .kind = CLI_FLOAT,
+          .target = &a.heat_percentile,
+          .argument = "P",
+          .help = "show as white the difference that P percent of the pixels do not exceed",
+          .minimum = 1,
+          .maximum = 100 },
         { .name = "json", .kind = CLI_FLAG, .target = &a.json, .help = "print JSON" },
         { .name = "max-pixels",
           .kind = CLI_INT,

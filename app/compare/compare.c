@@ -5,6 +5,7 @@
 #include "app/compare/ssim.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 const char *const compare_metrics[COMPARE_COUNT + 1] = {
     [COMPARE_RMSE] = "rmse", [COMPARE_RELMSE] = "relmse", [COMPARE_PSNR] = "psnr",
@@ -114,6 +115,30 @@ static double pixel_difference(const image *candidate, const image *reference, s
         largest = fmax(largest, difference);
     }
     return largest;
+}
+
+static int by_size(const void *one, const void *other) {
+    const float a = *(const float *)one, b = *(const float *)other;
+    return (a > b) - (a < b);
+}
+
+bool compare_difference_percentile(const image *candidate, const image *reference,
+                                   double percentile, double *value) {
+    const size_t pixels = value_count(candidate) / 3;
+    float *differences = malloc(pixels * sizeof *differences);
+    size_t count = 0;
+    if (!differences)
+        return false;
+    for (size_t p = 0; p < pixels; p++) {
+        const double difference = pixel_difference(candidate, reference, p);
+        if (isfinite(difference))
+            differences[count++] = (float)difference;
+    }
+    qsort(differences, count, sizeof *differences, by_size);
+    const double rank = ceil(percentile / 100 * (double)count);
+    *value = count > 0 ? (double)differences[(size_t)fmax(rank, 1) - 1] : 0;
+    free(differences);
+    return true;
 }
 
 double compare_heat_map(const image *candidate, const image *reference, double scale,

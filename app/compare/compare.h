@@ -42,6 +42,12 @@ void compare_to_display(image *candidate);
 /* The color of a difference, 0 black and 1 white. */
 void compare_heat_color(double value, unsigned char rgb[3]);
 
+/* Fails without memory. Otherwise *value is the smallest difference that `percentile` percent of
+ * the pixels do not exceed, 0 < percentile <= 100: that of a pixel is its largest channel's. Pixels
+ * with values that are not finite do not count; without any others it is 0. */
+bool compare_difference_percentile(const image *candidate, const image *reference,
+                                   double percentile, double *value);
+
 /* Largest channel's absolute difference as color, from black over purple and orange to white at
  * `scale` and above (0: the largest there is), which is returned; bad values are green. rgb8
  * receives 3 * width * height bytes. */

@@ -33,6 +33,13 @@ grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the image"
     --fail-above rmse=1000 | grep -q '"bad_values": 0' || fail "no JSON"
 # the width and the height of a .png, after its signature and the head of its first chunk: 48x32 and the scale below
 [ "$(od -An -tx1 -j16 -N8 "$WORK/heat.png" | tr -d ' \n')" = 000000300000003c ] || fail "no heat map with its scale"
+# one lamp's edge does not leave the rest of the map black
+"$PROGRAM" compare "$WORK/one.exr" "$WORK/other.exr" --heatmap "$WORK/heat.png" >"$WORK/out"
+grep -q '^heatmap black is 0, white [0-9.e-]*, which 99 % of the pixels do not exceed$' "$WORK/out" ||
+    fail "the heat map does not say what is white: $(cat "$WORK/out")"
+awk '$1 == "max" { most = $2 } $1 == "heatmap" { exit !($6 + 0 < most) }' "$WORK/out" || fail "the largest difference is white"
+"$PROGRAM" compare "$WORK/one.exr" "$WORK/other.exr" --heatmap "$WORK/heat.png" --heatmap-percentile 100 |
+    awk '$1 == "max" { most = $2 } $1 == "heatmap" { exit !($6 + 0 == most) }' || fail "the percentile 100 is not the largest"
 "$PROGRAM" compare "$WORK/one.png" "$WORK/brighter.png" | grep -q display || fail "PNG is not display"
 
 # a camera beyond 1e17 in a scene, as on the command line: the ray tracer would abort

@@ -183,6 +183,27 @@ static void a_heat_map_goes_from_black_to_white_and_marks_bad_values(void **stat
     assert_true(rgb8[9] == 0 && rgb8[10] == 255 && rgb8[11] == 0);
 }
 
+/* 192 pixels of which the k-th differs by k/256: 99 % are the first 191. */
+static void a_percentile_is_what_so_many_pixels_do_not_exceed(void **state) {
+    (void)state;
+    pair p;
+    double value;
+    memset(&p, 0, sizeof p);
+    p.a = (image) { WIDTH, HEIGHT, p.a_values };
+    p.b = (image) { WIDTH, HEIGHT, p.b_values };
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        p.a_values[3 * ((i * 7) % (WIDTH * HEIGHT))] = (float)(i + 1) / 256;
+    const double percents[] = { 99, 100, 50, 1 }, expected[] = { 191, 192, 96, 2 };
+    for (int i = 0; i < 4; i++) {
+        assert_true(compare_difference_percentile(&p.a, &p.b, percents[i], &value));
+        CHECK_WITHIN(fabs(value - expected[i] / 256), 1e-12);
+    }
+    for (int i = 0; i < VALUES; i++)
+        p.a_values[i] = NAN;
+    assert_true(compare_difference_percentile(&p.a, &p.b, 99, &value));
+    assert_true(value == 0);
+}
+
 static void display_values_are_srgb(void **state) {
     (void)state;
     float values[6] = { 0, 0.002f, 0.214041f, 1, 3, -1 };
@@ -376,6 +397,7 @@ int main(void) {
         cmocka_unit_test(ssim_of_noise_is_that_of_its_definition),
         cmocka_unit_test(bad_values_poison_every_metric),
         cmocka_unit_test(different_sizes_are_refused),
+        cmocka_unit_test(a_percentile_is_what_so_many_pixels_do_not_exceed),
         cmocka_unit_test(a_heat_map_goes_from_black_to_white_and_marks_bad_values),
         cmocka_unit_test(display_values_are_srgb),
     };
