@@ -114,7 +114,7 @@ static void draw_numbers(const heat_white *white, image *legend) {
         char text[48];
         const int length = snprintf(text, sizeof text, "%.3g", parts[i] * white->value);
         if (i == 2 && white->percentile > 0 && legend->width >= ROOM_FOR_WORDS)
-            snprintf(text + length, sizeof text - (size_t)length, " (%g %% below)",
+            snprintf(text + length, sizeof text - (size_t)length, ", percentile %g",
                      white->percentile);
         const int width = FIGURE_LETTER_WIDTH * (int)strlen(text);
         const int left = LEGEND_MARGIN + (int)(parts[i] * (ramp - width));
@@ -212,6 +212,26 @@ static bool compare(const compare_arguments *arguments, const limit *limits, ima
     return true;
 }
 
+static int execute(const cli_command *command, const compare_arguments *a) {
+    limit limits[sizeof a->limits.items / sizeof *a->limits.items];
+    image images[2] = { { .rgb = NULL }, { .rgb = NULL } };
+    int status = CLI_OK;
+    cli_error error;
+    for (int i = 0; i < a->limits.count; i++)
+        if (!parse_limit(command, a->limits.items[i], &limits[i]))
+            return CLI_USAGE;
+    if (is_exr(a->paths[0]) != is_exr(a->paths[1]))
+        return cli_usage(command, "one image is linear (.exr), the other tone-mapped: compare "
+                                  "two of a kind");
+    if (a->heat_map && image_format_of(a->heat_map) != IMAGE_PNG)
+        return cli_usage(command, "%s: --heatmap makes a .png", a->heat_map);
+    if (!compare(a, limits, images, &status, &error))
+        status = cli_report(&error);
+    for (int i = 0; i < 2; i++)
+        image_free(&images[i]);
+    return status;
+}
+
 static int run(const cli_command *command, int argc, char **argv) {
     compare_arguments a = { .heat_percentile = 99, .pixels_max = IMAGE_READ_PIXELS };
     const cli_option options[] = {
@@ -252,30 +272,15 @@ static int run(const cli_command *command, int argc, char **argv) {
           .maximum = IMAGE_PIXELS_MAX },
         { .name = NULL },
     };
-    limit limits[sizeof a.limits.items / sizeof *a.limits.items];
-    image images[2] = { { .rgb = NULL }, { .rgb = NULL } };
     int count, status = CLI_OK;
     char **operands;
-    cli_error error;
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
     if (count != 2)
         return cli_usage(command, "expected two images, IMAGE and REFERENCE");
-    for (int i = 0; i < a.limits.count; i++)
-        if (!parse_limit(command, a.limits.items[i], &limits[i]))
-            return CLI_USAGE;
     for (int i = 0; i < 2; i++)
         a.paths[i] = operands[i];
-    if (is_exr(a.paths[0]) != is_exr(a.paths[1]))
-        return cli_usage(command, "one image is linear (.exr), the other tone-mapped: compare "
-                                  "two of a kind");
-    if (a.heat_map && image_format_of(a.heat_map) != IMAGE_PNG)
-        return cli_usage(command, "%s: --heatmap makes a .png", a.heat_map);
-    if (!compare(&a, limits, images, &status, &error))
-        status = cli_report(&error);
-    for (int i = 0; i < 2; i++)
-        image_free(&images[i]);
-    return status;
+    return execute(command, &a);
 }
 
 const cli_command command_compare = {

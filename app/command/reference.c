@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { RAYS_OF_PNG = 8, RAYS_MAX = 256 }; /* as render has it */
+
 typedef struct reference_arguments {
     const char *output;
     int size[2];
@@ -23,7 +25,8 @@ typedef struct reference_arguments {
     float error, exposure, stops;
     bool exposure_given;
     int tone;
-    bool shard_given;
+    int samples, rays; /* light samples and camera rays per pixel */
+    bool rays_given, shard_given;
     char *const *words; /* of the command line */
     /* One point instead of an image. */
     bool point_given;
@@ -150,8 +153,17 @@ static bool solve_point(const reference_arguments *a, cli_error *error) {
     return true;
 }
 
+/* The light samples of a pixel are shared out among its camera rays. */
+static void share_samples(reference_arguments *a) {
+    if (!a->rays_given)
+        a->rays = a->output && image_format_of(a->output) == IMAGE_PNG ? RAYS_OF_PNG : 1;
+    a->settings.rays = a->rays < a->samples ? a->rays : a->samples;
+    a->settings.samples = (a->samples + a->settings.rays - 1) / a->settings.rays;
+}
+
 static int execute(const cli_command *command, reference_arguments *a, int count, char **operands) {
     cli_error error;
+    share_samples(a);
     a->settings.error = (double)a->error;
     a->settings.band_limit =
         (reference_band_limit) { .bands = a->bands, .window = (lmp_window)a->window };
@@ -164,10 +176,10 @@ static int execute(const cli_command *command, reference_arguments *a, int count
         return cli_usage(command, "expected one scene");
     if (!a->output)
         return cli_usage_output(command, "FILE");
-    if (a->shard_given && (image_format_of(a->output) != IMAGE_EXR || a->bands || a->error > 0))
-        return cli_usage(command,
-                         "--shard writes .exr, of whole lobes and a fixed number of samples: "
-                         "without --bands and --error");
+    if (a->shard_given &&
+        (image_format_of(a->output) != IMAGE_EXR || a->bands || a->error > 0 || a->rays > 1))
+        return cli_usage(command, "--shard writes .exr, of whole lobes, a fixed number of samples "
+                                  "and one ray per pixel: without --bands, --error and --samples");
     if (a->shard_given && reference_samples(&a->settings) < 1)
         return cli_usage(command, "--shard: part %d of %d has no sample of --spp %d",
                          a->settings.shard[0], a->settings.shard[1], a->settings.samples);
@@ -176,14 +188,17 @@ static int execute(const cli_command *command, reference_arguments *a, int count
                : cli_report(&error);
 }
 
+static const reference_arguments defaults = { .size = { 1280, 720 },
+                                              .settings = { .seed = 1 },
+                                              .samples = 64,
+                                              .environment = ENVIRONMENT_DEFAULTS,
+                                              .window = LMP_WINDOW_HANNING,
+                                              .normal = { 0, 1, 0 },
+                                              .view = { 0, 1, 0 },
+                                              .diffuse = { 1, 1, 1 } };
+
 static int run(const cli_command *command, int argc, char **argv) {
-    reference_arguments a = { .size = { 1280, 720 },
-                              .settings = { .samples = 64, .seed = 1 },
-                              .environment = ENVIRONMENT_DEFAULTS,
-                              .window = LMP_WINDOW_HANNING,
-                              .normal = { 0, 1, 0 },
-                              .view = { 0, 1, 0 },
-                              .diffuse = { 1, 1, 1 } };
+    reference_arguments a = defaults;
     const cli_option options[] = {
         { "output", 'o', CLI_TEXT, &a.output, "FILE",
           "the image: .exr (linear, the standard error as layer \"stderr\") or .png", 0, 0, NULL,
@@ -191,8 +206,12 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "size", 's', CLI_SIZE, a.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
         SCENE_CAMERA_OPTION_ROWS(a.camera),
         OVERRIDE_OPTION_ROW(a.materials),
-        { "spp", 0, CLI_INT, &a.settings.samples, "N",
-          "light samples a pixel; with --error the most", 1, REFERENCE_SAMPLES_MAX, NULL, NULL },
+        { "spp", 0, CLI_INT, &a.samples, "N", "light samples per pixel; with --error the most", 1,
+          REFERENCE_SAMPLES_MAX, NULL, NULL },
+        { "samples", 0, CLI_INT, &a.rays, "N",
+          "camera rays per pixel, which share its light samples; without it 8, for a .exr the one "
+          "through its center",
+          1, RAYS_MAX, NULL, &a.rays_given },
         { "error", 0, CLI_FLOAT, &a.error, "E",
           "stop a pixel when its standard error is below E times its value; 0 means never", 0, 1,
           NULL, NULL },

@@ -14,9 +14,10 @@
 typedef struct reference_settings {
     int width, height;
     scene_camera camera;
-    int samples;   /* light samples a pixel; the most if error > 0 */
+    int rays;      /* camera rays per pixel, spread over it; 0 or 1: one through its center */
+    int samples;   /* light samples per camera ray; the most if error > 0 */
     int shard[2];  /* part I of N: every N-th sample of these, from I - 1 on; N 0: all of them */
-    double error;  /* stop a pixel when its standard error falls below this part of it; 0: off */
+    double error;  /* stop a ray when its standard error falls below this part of it; 0: off */
     uint64_t seed; /* of the noise: the same seed gives the same bits on any thread count */
     int threads;   /* 0 means all cores */
     bool shadows;  /* whether triangles hide lights from each other */
@@ -26,12 +27,13 @@ typedef struct reference_settings {
                                                    NULL: none */
 } reference_settings;
 
-/* How many samples a pixel takes: all, or those of the shard. */
+/* How many samples a camera ray takes: all, or those of the shard. */
 int reference_samples(const reference_settings *settings);
 
-/* Radiance through the center of every pixel, and its standard error. Triangles and the glowing
- * spheres are seen; where there is neither, the backdrop of the environment is, or nothing. Both
- * images are created here; free them. Shows progress. */
+/* Radiance through the center of every pixel, or the mean over its square, and the standard error
+ * of the light samples. Triangles and the glowing spheres are seen; where there is neither, the
+ * backdrop of the environment is, or nothing. Both images are created here; free them. Shows
+ * progress. */
 bool reference_render(const scene *scene, const reference_settings *settings, image *radiance,
                       image *standard_error, cli_error *error);
 

@@ -37,9 +37,10 @@ typedef struct pixel_ray {
     reference_vec from, direction;
 } pixel_ray;
 
-static pixel_ray ray_through(const frame *f, int x, int y) {
-    const double across = 2 * (x + 0.5) / f->settings->width - 1;
-    const double along = 1 - 2 * (y + 0.5) / f->settings->height;
+/* Through the point (x, y) of the image, in pixels. */
+static pixel_ray ray_through(const frame *f, double x, double y) {
+    const double across = 2 * x / f->settings->width - 1;
+    const double along = 1 - 2 * y / f->settings->height;
     const reference_vec aside =
         reference_add(reference_scale(across, f->right), reference_scale(along, f->up));
     const reference_vec direction =
@@ -244,13 +245,11 @@ static sight see(const frame *f, worker *own, const pixel_ray *ray, uint64_t key
     return seen;
 }
 
-/* Front to back, as long as something shows through. */
+/* Front to back, as long as something shows through; adds to mean and variance. */
 #define SIGHTS_MAX 64
-static void trace_pixel(const frame *f, worker *own, int x, int y) {
-    const size_t pixel = (size_t)y * (size_t)f->settings->width + (size_t)x;
-    pixel_ray ray = ray_through(f, x, y);
-    uint64_t key = reference_hash(f->settings->seed, pixel);
-    double mean[3] = { 0 }, variance[3] = { 0 }, through = 1;
+static void trace_ray(const frame *f, worker *own, pixel_ray ray, size_t pixel, uint64_t key,
+                      double mean[3], double variance[3]) {
+    double through = 1;
     for (int i = 0; i < SIGHTS_MAX && through > 1e-4; i++) {
         const sight seen = see(f, own, &ray, key);
         for (int c = 0; c < 3; c++) {
@@ -262,9 +261,30 @@ static void trace_pixel(const frame *f, worker *own, int x, int y) {
         ray.from = seen.behind;
         key = reference_hash(key, pixel);
     }
+}
+
+/* Ray `index` of `count` within its pixel: a row and a column of its own, spread by the golden
+ * ratio. A single one goes through the center. */
+static void place_ray(int index, int count, double at[2]) {
+    const double column = 0.5 + index * 0.6180339887498949;
+    at[0] = (index + 0.5) / count;
+    at[1] = (floor((column - floor(column)) * count) + 0.5) / count;
+}
+
+static void trace_pixel(const frame *f, worker *own, int x, int y) {
+    const size_t pixel = (size_t)y * (size_t)f->settings->width + (size_t)x;
+    const int rays = f->settings->rays > 1 ? f->settings->rays : 1;
+    double mean[3] = { 0 }, variance[3] = { 0 };
+    for (int i = 0; i < rays; i++) {
+        const uint64_t key = reference_hash(f->settings->seed, pixel);
+        double at[2];
+        place_ray(i, rays, at);
+        trace_ray(f, own, ray_through(f, x + at[0], y + at[1]), pixel,
+                  i == 0 ? key : reference_hash(key, (uint64_t)i), mean, variance);
+    }
     for (int c = 0; c < 3; c++) {
-        store(f->radiance, pixel, c, mean[c]);
-        store(f->standard_error, pixel, c, sqrt(variance[c]));
+        store(f->radiance, pixel, c, mean[c] / rays);
+        store(f->standard_error, pixel, c, sqrt(variance[c]) / rays);
     }
 }
 

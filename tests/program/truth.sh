@@ -33,6 +33,15 @@ grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the image"
     --fail-above rmse=1000 | grep -q '"bad_values": 0' || fail "no JSON"
 # the width and the height of a .png, after its signature and the head of its first chunk: 48x32 and the scale below
 [ "$(od -An -tx1 -j16 -N8 "$WORK/heat.png" | tr -d ' \n')" = 000000300000003c ] || fail "no heat map with its scale"
+# a .png is filtered over the pixel, a .exr where it is asked for
+"$PROGRAM" reference builtin:balls $small --samples 1 -o "$WORK/center.png"
+! cmp -s "$WORK/one.png" "$WORK/center.png" || fail "a .png is not filtered"
+"$PROGRAM" reference builtin:balls $small --samples 8 -o "$WORK/filtered.exr"
+! cmp -s "$WORK/one.exr" "$WORK/filtered.exr" || fail "--samples changes nothing"
+"$PROGRAM" reference builtin:balls $small --samples 1 -o "$WORK/filtered.exr"
+cmp -s "$WORK/one.exr" "$WORK/filtered.exr" || fail "a .exr is filtered"
+refuses 2 'without --bands, --error and --samples' reference builtin:balls --shard 1/2 --samples 8 -o "$WORK/part.exr"
+
 # one lamp's edge does not leave the rest of the map black
 "$PROGRAM" compare "$WORK/one.exr" "$WORK/other.exr" --heatmap "$WORK/heat.png" >"$WORK/out"
 grep -q '^heatmap black is 0, white [0-9.e-]*, which 99 % of the pixels do not exceed$' "$WORK/out" ||

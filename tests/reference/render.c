@@ -339,8 +339,43 @@ static void glowing_spheres_are_seen(void **state) {
     image_free(&standard_error);
 }
 
+/* The mean over a pixel that the edge of a light crosses is between the two radiances on its sides,
+ * and over the whole image the light covers the area that its projection has. */
+static void rays_spread_over_the_pixel_filter_edges(void **state) {
+    (void)state;
+    fixture s;
+    image radiance;
+    build(&s);
+    s.settings.camera = (scene_camera) { .eye = { 0, 5, 0.01f }, .up = { 0, 0, -1 }, .height = 4 };
+    s.lights[0] = (scene_light) {
+        .emitter = { .position = { 0, 2, 0 }, .radius = 1, .radiance = { 100, 100, 100 } }
+    };
+    s.world.light_count = 1;
+    s.material.base_color[0] = s.material.base_color[1] = s.material.base_color[2] = 0;
+    s.settings.samples = 1;
+    double errors[2];
+    for (int k = 0; k < 2; k++) {
+        double covered = 0;
+        int between = 0;
+        s.settings.rays = k == 0 ? 1 : 64;
+        draw_plain(&s, &radiance);
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            const double part = (double)radiance.rgb[3 * i] / 100;
+            covered += part;
+            between += part > 0.1 && part < 0.9;
+        }
+        assert_true(k == 0 ? between == 0 : between >= 12);
+        /* a pixel is a quarter wide and high */
+        errors[k] = fabs(covered / 16 - REFERENCE_PI);
+        image_free(&radiance);
+    }
+    CHECK_WITHIN(errors[1], 0.015 * REFERENCE_PI);
+    CHECK_WITHIN(errors[1], errors[0] + 1e-9);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays_spread_over_the_pixel_filter_edges),
         cmocka_unit_test(every_pixel_is_what_the_specification_says),
         cmocka_unit_test(a_glowing_sphere_is_its_radiance_exactly),
         cmocka_unit_test(vertices_color_what_is_unlit),
