@@ -23,11 +23,15 @@ bool cli_fail(cli_error *error, const char *subject, const char *format, ...)
 /* Whether a failure is that memory ran out: such a one is never forgiven, whatever it lacks for. */
 bool cli_is_out_of_memory(const cli_error *error);
 
-/* Prints "lampion: text" to stderr and returns CLI_FAILURE. */
+/* Prints "lampion: text" to stderr and returns CLI_FAILURE. On a terminal the name of the program
+ * is red, and in a note yellow, unless the environment has NO_COLOR. */
 int cli_report(const cli_error *error);
 
 /* Prints "lampion: subject: message" to stderr: what one should know, though it stops nothing. */
 void cli_note(const char *subject, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* From now on cli_note and cli_progress are silent (--quiet, which every command takes). */
+void cli_be_quiet(void);
 
 typedef enum cli_kind {
     CLI_FLAG,     /* bool */

@@ -15,6 +15,9 @@ bool option_store(const cli_option *option, const char *text, cli_error *error);
  * have too. Returns their count. */
 int option_rows(const cli_command *command, const cli_option *options, cli_option *rows);
 
+/* The row of --quiet, which every command takes. */
+cli_option option_quiet(bool *quiet);
+
 /* Writes what an option does, what it accepts and its default: targets still hold defaults. */
 void option_describe(const cli_option *option, char *text, size_t size);
 
@@ -25,6 +28,9 @@ void option_man(const cli_command *command, const cli_option *options);
 void option_bash(const cli_command *command, const cli_option *options);
 void option_zsh(const cli_command *command, const cli_option *options);
 void option_fish(const cli_command *command, const cli_option *options);
+
+/* Whether cli_be_quiet was called. */
+bool cli_is_quiet(void);
 
 /* A table's limits: its own, or those of its kind. */
 void option_limits(const cli_option *option, double *minimum, double *maximum);

@@ -106,12 +106,12 @@ bool cli_parse(const cli_command *command, const cli_option *options, int argc, 
         return false;
     }
     arguments rest = { argv + 1, argv + argc };
-    bool options_end = false, masked = false;
+    bool options_end = false, masked = false, quiet = false;
     int mask = LMP_CPU_ALL;
-    cli_option common[] = { cli_cpu_mask(&mask), { .name = NULL } };
-    common[0].given = &masked;
+    cli_option common[] = { option_quiet(&quiet), cli_cpu_mask(&mask), { .name = NULL } };
+    common[1].given = &masked;
     if (!command->kernels)
-        common[0].name = NULL;
+        common[1].name = NULL;
     while (rest.next < rest.end) {
         char *const word = *rest.next++;
         if (options_end || word[0] != '-' || word[1] == '\0') {
@@ -128,6 +128,8 @@ bool cli_parse(const cli_command *command, const cli_option *options, int argc, 
     }
     if (masked)
         lmp_cpu_mask((unsigned)mask);
+    if (quiet)
+        cli_be_quiet();
     return true;
 }
 

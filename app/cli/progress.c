@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/cli/cli.h"
+#include "app/cli/option.h"
 #include "app/timing/timing.h"
 
 #include <stdatomic.h>
@@ -19,6 +20,16 @@ static bool drawn;
 
 /* Where the work at hand was seen first; work that goes back has begun anew. */
 static double first_time, first_done, last_done = 1.0;
+
+static bool quiet;
+
+void cli_be_quiet(void) {
+    quiet = true;
+}
+
+bool cli_is_quiet(void) {
+    return quiet;
+}
 
 static bool is_terminal(void) {
     const char *const kind = getenv("TERM");
@@ -58,7 +69,7 @@ void cli_progress(const char *what, double done) {
         first_done = done;
     }
     last_done = done;
-    if (time - last_draw >= DRAW_PERIOD && is_terminal()) {
+    if (time - last_draw >= DRAW_PERIOD && !cli_is_quiet() && is_terminal()) {
         draw(what, time, done);
         last_draw = time;
         drawn = true;

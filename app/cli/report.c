@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE /* strsep */
 #include "app/cli/cli.h"
+#include "app/cli/option.h"
 #include "app/cli/printable.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Names of files are untrusted: a terminal must not obey what is in them. */
 static void replace_controls(char *text) {
@@ -61,7 +64,7 @@ bool cli_fail_word(cli_error *error, const char *subject, const char *word,
     if (length >= sizeof known)
         memcpy(known + sizeof known - 4, "...", 4);
     const char *const nearest = cli_nearest(word, names);
-    return cli_fail(error, subject, "\"%s\" is none of %s%s%s%s", word, known,
+    return cli_fail(error, subject, "\"%s\" is not one of %s%s%s%s", word, known,
                     nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
 }
 
@@ -97,20 +100,36 @@ const char *cli_row_help(const char *what, const char *const *name, const char *
     return text;
 }
 
-int cli_report(const cli_error *error) {
+/* As https://no-color.org has it: any value but an empty one. */
+static bool takes_color(void) {
+    const char *const refused = getenv("NO_COLOR"), *const terminal = getenv("TERM");
+    return !(refused && *refused) && terminal && strcmp(terminal, "dumb") != 0 &&
+           isatty(STDERR_FILENO);
+}
+
+/* `color` is a parameter of ANSI's Select Graphic Rendition. */
+static void print_line(const char *color, const char *text) {
     cli_progress_end();
-    fprintf(stderr, "lampion: %s\n", error->text);
+    if (takes_color())
+        fprintf(stderr, "\033[%smlampion:\033[0m %s\n", color, text);
+    else
+        fprintf(stderr, "lampion: %s\n", text);
+}
+
+int cli_report(const cli_error *error) {
+    print_line("1;31", error->text);
     return CLI_FAILURE;
 }
 
 void cli_note(const char *subject, const char *format, ...) {
     cli_error note;
     va_list arguments;
+    if (cli_is_quiet())
+        return;
     va_start(arguments, format);
     write_text(&note, subject, format, arguments);
     va_end(arguments);
-    cli_progress_end();
-    fprintf(stderr, "lampion: %s\n", note.text);
+    print_line("33", note.text);
 }
 
 int cli_usage_operand(const cli_command *command, const char *word) {

@@ -16,13 +16,25 @@ cli_option cli_cpu_mask(int *mask) {
     };
 }
 
+cli_option option_quiet(bool *quiet) {
+    return (cli_option) {
+        .name = "quiet",
+        .letter = 'q',
+        .kind = CLI_FLAG,
+        .target = quiet,
+        .help = "print errors alone: no notes, no progress",
+    };
+}
+
 int option_rows(const cli_command *command, const cli_option *options, cli_option *rows) {
     static int every = LMP_CPU_ALL;
+    static bool quiet;
     int count = 0;
-    for (; options[count].name && count < OPTIONS_MAX - 2; count++)
+    for (; options[count].name && count < OPTIONS_MAX - 3; count++)
         rows[count] = options[count];
     if (command->kernels)
         rows[count++] = cli_cpu_mask(&every);
+    rows[count++] = option_quiet(&quiet);
     rows[count++] = (cli_option) { .name = "help", .letter = 'h', .help = "this text" };
     return count;
 }

@@ -51,7 +51,7 @@ hints cpu bench cpuu
 hints fish completion fihs
 hints render man rendr
 
-# progress is for terminals: none in a pipe (above), none on a dumb one; never a color
+# progress is for terminals: none in a pipe (above), none on a dumb one; no color in it
 if command -v script >/dev/null; then
     for terminal in dumb xterm; do
         script -qec "TERM=$terminal '$PROGRAM' reference builtin:ball --size 96x64 --spp 64 -o '$WORK/t.png'" \
@@ -60,6 +60,20 @@ if command -v script >/dev/null; then
         ! grep -q "$(printf '\033\\[[0-9;]*m')" "$WORK/$terminal" || fail "colors on $terminal"
     done
     [ ! -s "$WORK/dumb" ] || fail "progress on a dumb terminal: $(cat "$WORK/dumb")"
+    # the name of the program is colored in an error and in a note, on a terminal that wants it
+    says() {
+        script -qec "$1 '$PROGRAM' $2" /dev/null </dev/null | tr -d '\r'
+    }
+    small="reference builtin:ball --size 8x8 --spp 1 --seed 3 -o '$WORK/t.png'"
+    escape=$(printf '\033')
+    says TERM=xterm 'info none.gltf' | grep -q "^$escape\[1;31mlampion:$escape\[0m none.gltf: " || fail "an error is not red"
+    says TERM=xterm "$small" | grep -q "$escape\[33mlampion:$escape\[0m --seed: " || fail "a note is not yellow"
+    for plain in 'TERM=xterm NO_COLOR=1' TERM=dumb; do
+        says "$plain" 'info none.gltf' | grep -q '^lampion: none.gltf: ' || fail "colors with $plain"
+    done
+    says 'TERM=xterm NO_COLOR=' 'info none.gltf' | grep -q "^$escape" || fail "an empty NO_COLOR counts"
+    [ -z "$(says TERM=xterm "$small --quiet")" ] || fail "--quiet is not"
+    says TERM=xterm 'info none.gltf -q' | grep -q none.gltf || fail "--quiet hides errors"
 fi
 
 status=0

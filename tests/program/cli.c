@@ -176,7 +176,7 @@ static void wrong_values_are_refused_in_one_line(void **state) {
         { "--grid=3x1x5", "out of range (2 to 99)" },
         { "--seed=-1", "whole number" },
         { "--seed=18446744073709551616", "whole number" },
-        { "--method=fast", "none of zonal, coefficients" },
+        { "--method=fast", "not one of zonal, coefficients" },
         { "--frames=0", "out of range" },
         { "--frames=101", "out of range (0 to 99)" },
         { "--frames=0-100", "out of range" },
