@@ -22,6 +22,15 @@ mkdir "$WORK/home"
 HOME=$WORK/home XDG_CACHE_HOME=relative "$PROGRAM" doctor | grep -q "^cache  *$WORK/home/.cache/lampion: " ||
     fail "a relative XDG_CACHE_HOME is not ignored"
 
+# the same for programs
+"$PROGRAM" doctor --json --cpu-mask 1 >"$WORK/out" || fail "doctor --json: $(cat "$WORK/out")"
+for word in '"lampion":	"[0-9]' '"threads":	[0-9]' '"kernels":	"scalar"' '"available":	true' '"Assimp":	"[0-9]' \
+    '"Embree":	"[0-9]' "\"folder\":	\"$folder\"" '"files":	0'; do
+    grep -q "$word" "$WORK/out" || fail "doctor --json tells nothing of $word: $(cat "$WORK/out")"
+done
+"$PROGRAM" doctor --json --gl-device none-such >"$WORK/out" && fail "doctor --json is content without OpenGL"
+grep -q '"reason":	"' "$WORK/out" || fail "doctor --json gives no reason: $(cat "$WORK/out")"
+
 # bake NAME: a table of 1.2 MiB
 bake() {
     "$PROGRAM" brdf bake "phong:$1" --bands 32 --views 160 -o "$WORK/$1.lmpt"
