@@ -154,15 +154,33 @@ static void print_materials(const scene *s) {
         puts(s->materials[i].name);
 }
 
+/* A line per light: as JSON, which a file of lights may hold. */
+static int print_each_light(const scene *s) {
+    for (size_t i = 0; i < s->light_count; i++) {
+        cli_error error;
+        char *text =
+            file_json_text(scene_light_to_json(&s->lights[i], s->origin), false, s->name, &error);
+        if (!text)
+            return cli_report(&error);
+        puts(text);
+        free(text);
+    }
+    return CLI_OK;
+}
+
 static int run(const cli_command *command, int argc, char **argv) {
-    bool json = false, materials = false;
+    bool json = false, materials = false, lights = false;
     scene_options load = { .no_texels = true };
     const cli_option options[] = {
         { .name = "json", .kind = CLI_FLAG, .target = &json, .help = "print everything as JSON" },
         { .name = "materials",
           .kind = CLI_FLAG,
           .target = &materials,
-          .help = "print the names of its materials, a line each" },
+          .help = "print the names of its materials, one per line" },
+        { .name = "lights",
+          .kind = CLI_FLAG,
+          .target = &lights,
+          .help = "print its lights, one per line, as a file for --lights has them" },
         { .name = "no-cache",
           .kind = CLI_FLAG,
           .target = &load.no_cache,
@@ -176,9 +194,12 @@ static int run(const cli_command *command, int argc, char **argv) {
         return status;
     if (operand_count != 1)
         return cli_usage(command, "needs one scene");
+    if (json + materials + lights > 1)
+        return cli_usage(command, "give one of --json, --materials and --lights");
     if (info_is_field(operands[0]))
-        return materials ? cli_usage(command, "a field has no --materials")
-                         : info_print_field(operands[0], json);
+        return materials || lights
+                   ? cli_usage(command, "a field has no --%s", materials ? "materials" : "lights")
+                   : info_print_field(operands[0], json);
     scene loaded;
     cli_error error = { 0 };
     if (!scene_load(operands[0], &load, &loaded, &error))
@@ -188,6 +209,8 @@ static int run(const cli_command *command, int argc, char **argv) {
         status = print_json(&loaded);
     else if (materials)
         print_materials(&loaded);
+    else if (lights)
+        status = print_each_light(&loaded);
     else
         print_text(&loaded);
     scene_free(&loaded);
@@ -200,6 +223,7 @@ const cli_command command_info = {
     .summary = "tell what is in a scene, or in a field (.lmpf)",
     .examples = "lampion info builtin:atrium\n"
                 "lampion info --json model.gltf\n"
+                "lampion info --lights model.gltf\n"
                 "lampion info field.lmpf\n",
     .run = run,
 };
