@@ -18,6 +18,7 @@ typedef struct mtl_reader {
     bool open; /* a newmtl has been */
     phong factors;
     int illumination;
+    bool filters;              /* Tf lets colored light through a transparent material */
     float roughness, metallic; /* below 0: not said */
     size_t material;
     cli_error *error;
@@ -44,6 +45,8 @@ static void finish_material(mtl_reader *r) {
     phong_apply(&r->factors, material);
     if (material->base_color[3] == 0.0f)
         builder_left_out(r->files->images.builder, "invisible by d 0", "material", 1);
+    if (r->filters && material->base_color[3] < 1.0f)
+        builder_left_out(r->files->images.builder, "Tf", "material", 1);
     if (r->roughness >= 0.0f)
         material->roughness = fminf(r->roughness, 1.0f);
     if (r->metallic >= 0.0f)
@@ -72,6 +75,7 @@ static bool new_material(mtl_reader *r) {
     r->open = true;
     r->factors = (phong) { .diffuse = { 0.6f, 0.6f, 0.6f }, .opacity = 1.0f };
     r->illumination = 2;
+    r->filters = false;
     r->roughness = r->metallic = -1.0f;
     return true;
 }
@@ -112,6 +116,10 @@ static bool read_factor(mtl_reader *r, const char *keyword, bool *valid) {
         ok = read_color(r, r->factors.specular);
     } else if (strcasecmp(keyword, "Ke") == 0) {
         ok = read_color(r, r->factors.emission);
+    } else if (strcasecmp(keyword, "Tf") == 0) {
+        float filter[3];
+        ok = read_color(r, filter);
+        r->filters = ok && !(filter[0] == 1.0f && filter[1] == 1.0f && filter[2] == 1.0f);
     } else if (strcasecmp(keyword, "Ns") == 0) {
         ok = read_number(r, &r->factors.exponent);
     } else if (strcasecmp(keyword, "Pr") == 0) {
