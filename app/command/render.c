@@ -104,9 +104,21 @@ static void split_frames(const render_options *o, int *first, int *end) {
     *end = o->frames[0] + (int)(count * o->shard[0] / o->shard[1]);
 }
 
+/* Who wrote no number into FILE looks for the frames under another name. */
+static void tell_names(const render_options *o, int first, int end) {
+    char names[2][PATH_SIZE];
+    if (!o->frames_given || first == end || image_sequence_has_number(o->output))
+        return;
+    image_sequence_name(o->output, first, names[0], sizeof names[0]);
+    image_sequence_name(o->output, end - 1, names[1], sizeof names[1]);
+    cli_note(NULL, "the frames are written to %s … %s (%%04d in -o says where the number goes)",
+             names[0], names[1]);
+}
+
 static bool render_frames(render_job *j, cli_error *error) {
     int first, end;
     split_frames(j->options, &first, &end);
+    tell_names(j->options, first, end);
     bool ok = settle_exposure(j, first, error);
     for (int i = first; i < end && ok; i++) {
         cli_progress("rendering", (double)(i - first) / (double)(end - first));
@@ -349,8 +361,9 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "background", 0, CLI_VEC3, o.background, "R,G,B",
           "radiance of the background, where no surface is", 0, 1e30, NULL, &o.background_given },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
-          "an image sequence (%04d in FILE) while the lights move: the first N, or A to B", 0,
-          FRAME_MAX, NULL, &o.frames_given },
+          "an image sequence while the lights move: the first N frames, or A to B; %04d in FILE "
+          "stands for the number, which otherwise follows the name: out_0000.png",
+          0, FRAME_MAX, NULL, &o.frames_given },
         { "shard", 0, CLI_PART, o.shard, "I/N",
           "of --frames, only part I of N: to split them among machines", 1, FRAME_MAX, NULL,
           &o.shard_given },

@@ -18,6 +18,12 @@ static const char *find_number(const char *pattern, int *digits, const char **re
     return NULL;
 }
 
+bool image_sequence_has_number(const char *pattern) {
+    int digits;
+    const char *rest;
+    return find_number(pattern, &digits, &rest) != NULL;
+}
+
 void image_sequence_name(const char *pattern, int index, char *path, size_t size) {
     int digits = 4;
     const char *rest = strrchr(pattern, '.');

@@ -3,7 +3,11 @@
 #ifndef LAMPION_IMAGE_SEQUENCE_H
 #define LAMPION_IMAGE_SEQUENCE_H
 
+#include <stdbool.h>
 #include <stddef.h>
+
+/* Whether the pattern says where the number goes. */
+bool image_sequence_has_number(const char *pattern);
 
 /* The file of image `index`: the number takes the place of %d or %0Nd in the pattern, or goes
  * before its extension with four digits. */

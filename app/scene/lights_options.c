@@ -34,7 +34,10 @@ bool scene_apply_lights(scene *s, const scene_lights_options *options, cli_error
     if (options->file && !scene_add_lights_file(s, options->file, error))
         return false;
     if (options->file && s->light_count == before)
-        cli_note(options->file, "has no lights");
+        cli_note(options->file,
+                 "has no lights, so the scene is dark: add some to its \"lights\", such as "
+                 "{ \"position\": [0, 3, 0], \"radius\": 0.2, \"power\": 100 }, or "
+                 "leave --lights out");
     if (options->random_count > 0 &&
         !scene_add_random_lights(s, options->random_count, options->seed, error))
         return false;

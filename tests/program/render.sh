@@ -112,7 +112,23 @@ noted() {
 noted '--seed: changes nothing without --random-lights' --seed 3
 noted '--keep-lights: changes nothing without --lights or --random-lights' --keep-lights
 echo '{ "lights": [] }' >"$WORK/none.json"
-noted "$WORK/none.json: has no lights" --lights "$WORK/none.json"
+noted "$WORK/none.json: has no lights, so the scene is dark: add some to its \"lights\", such as \
+{ \"position\": [0, 3, 0], \"radius\": 0.2, \"power\": 100 }, or leave --lights out" --lights "$WORK/none.json"
+
+# what info --lights prints is a file of lights but for what is around it, and gives the same image
+"$PROGRAM" info --lights builtin:balls >"$WORK/each" || fail "info --lights"
+[ "$(wc -l <"$WORK/each")" = "$("$PROGRAM" info builtin:balls | awk '$1 == "lights" { print $2 + 0 }')" ] || fail "not a line per light"
+{ echo '{ "lights": ['; sed '$!s/$/,/' "$WORK/each"; echo '] }'; } >"$WORK/each.json"
+"$PROGRAM" render builtin:balls $small -o "$WORK/own.exr"
+"$PROGRAM" render builtin:balls $small --lights "$WORK/each.json" -o "$WORK/each.exr"
+cmp "$WORK/own.exr" "$WORK/each.exr" || fail "info --lights gives other lights"
+
+# names of frames that FILE does not say are said; those that it says are not
+"$PROGRAM" render builtin:ball $small --frames 2-3 -o "$WORK/turn.exr" 2>"$WORK/err"
+grep -qF "the frames are written to $WORK/turn_0002.exr … $WORK/turn_0003.exr (" "$WORK/err" || fail "names of frames: $(cat "$WORK/err")"
+[ -s "$WORK/turn_0002.exr" ] && [ -s "$WORK/turn_0003.exr" ] || fail "the frames have other names"
+"$PROGRAM" render builtin:ball $small --frames 1 -o "$WORK/turn_%d.exr" 2>"$WORK/err"
+[ -s "$WORK/turn_0.exr" ] && [ ! -s "$WORK/err" ] || fail "names that are given are told: $(cat "$WORK/err")"
 
 # refusals: status, one line, nothing written
 refused() {
