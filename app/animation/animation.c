@@ -202,9 +202,9 @@ static bool open_paths(const char *name, const scene *world, animation *all, cli
         return take_motions(world, all, error);
     const char *dot = strrchr(name, '.'), *nearest = cli_nearest(name, known);
     if (!dot && nearest)
-        return cli_fail(error, name, "is no path of lights (did you mean %s?)", nearest);
+        return cli_fail(error, name, "is not a path of lights (did you mean %s?)", nearest);
     if (!dot)
-        return cli_fail(error, name, "is no path of lights (there are " ANIMATION_NAMES ")");
+        return cli_fail(error, name, "is not a path of lights (there are " ANIMATION_NAMES ")");
     return animation_read_paths(name, world, all->paths, error);
 }
 

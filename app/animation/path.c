@@ -138,14 +138,14 @@ static bool read_path(const path_reader *reader, const cJSON *entry, const scene
                 *circle = file_json_member(entry, "circle"),
                 *fall = file_json_member(entry, "bounce");
     if (!cJSON_IsObject(entry))
-        return fail_path(reader, "is no object");
+        return fail_path(reader, "is not an object");
     if (!only_keys(reader, entry, known))
         return false;
     if (!!keys + !!circle + !!fall != 1)
         return fail_path(reader, "needs one of keys, circle and bounce");
     if (!keys && !cJSON_IsObject(circle ? circle : fall))
-        return fail_path(reader, circle ? "has a circle that is no object"
-                                        : "has a bounce that is no object");
+        return fail_path(reader, circle ? "has a circle that is not an object"
+                                        : "has a bounce that is not an object");
     size_t index = 0;
     if (!read_light(reader, light, circle, world, paths, &index))
         return false;

@@ -42,7 +42,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!output)
         return cli_usage_output(command, "FILE.exr");
     if (image_format_of(output) != IMAGE_EXR)
-        return cli_usage(command, "-o: \"%s\" is no .exr", output);
+        return cli_usage(command, "-o: \"%s\" is not a .exr file", output);
     return execute(output, operands, count, partial);
 }
 

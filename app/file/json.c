@@ -62,7 +62,7 @@ struct cJSON *file_parse_json(const char *path, const char *text, size_t size, c
             line += *at == '\n';
             column = *at == '\n' ? 1 : column + 1;
         }
-        cli_fail(error, path, "is no valid JSON: line %d, column %d: %s", line, column,
+        cli_fail(error, path, "is not valid JSON: line %d, column %d: %s", line, column,
                  file_json_cause(text, size, wrong));
         return NULL;
     }

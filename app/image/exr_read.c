@@ -252,7 +252,7 @@ static bool decode_part(exr_const_context_t context, const image_source *source,
     if (r == EXR_ERR_SUCCESS)
         r = exr_get_storage(context, 0, &storage);
     if (r != EXR_ERR_SUCCESS)
-        return cli_fail(error, path, "not a readable OpenEXR: %s",
+        return cli_fail(error, path, "is damaged, or not an OpenEXR image (%s)",
                         exr_get_default_error_message(r));
     if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
         return cli_fail(error, path, "deep OpenEXR images are not supported");
@@ -297,7 +297,7 @@ bool image_decode_exr(const image_source *source, image *pixels, cli_error *erro
     exr_context_t context = NULL;
     const exr_result_t r = exr_start_read(&context, source->path, &setup);
     if (r != EXR_ERR_SUCCESS)
-        return cli_fail(error, source->path, "not a readable OpenEXR: %s",
+        return cli_fail(error, source->path, "is damaged, or not an OpenEXR image (%s)",
                         exr_get_default_error_message(r));
     const bool ok = decode_part(context, source, pixels, error);
     exr_finish(&context);

@@ -27,7 +27,9 @@ static bool decode_pixels(png_image *png, const image_source *source, image *pix
     if (!rgb8 || !png_image_finish_read(png, &black, rgb8, 0, NULL)) {
         free(rgb8);
         image_free(pixels);
-        return cli_fail(error, source->path, "%s", rgb8 ? png->message : "out of memory");
+        return rgb8 ? cli_fail(error, source->path, "is a damaged or truncated PNG (libpng: %s)",
+                               png->message)
+                    : cli_fail(error, source->path, "out of memory");
     }
     float linear[256];
     for (int i = 0; i < 256; i++)
@@ -42,7 +44,8 @@ bool image_decode_png(const image_source *source, image *pixels, cli_error *erro
     png_image png = { .version = PNG_IMAGE_VERSION };
     bool ok = png_image_begin_read_from_memory(&png, source->data, source->size);
     if (!ok)
-        cli_fail(error, source->path, "not a readable PNG: %s", png.message);
+        cli_fail(error, source->path, "is damaged, truncated or not a PNG (libpng: %s)",
+                 png.message);
     ok = ok && decode_pixels(&png, source, pixels, error);
     png_image_free(&png);
     return ok;

@@ -122,7 +122,7 @@ bool image_decode_png_text(const image_source *source, const char *key, char **t
         cli_fail(error, source->path,
                  "holds no settings of Lampion (a screenshot of lampion view does)");
     else
-        cli_fail(error, source->path, "not a readable PNG: %s", complaint.text);
+        cli_fail(error, source->path, "is damaged, truncated or not a PNG (%s)", complaint.text);
     png_destroy_read_struct(&png, &info, NULL);
     return found && (*text || cli_fail(error, source->path, "out of memory"));
 }

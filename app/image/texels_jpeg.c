@@ -24,7 +24,7 @@ static _Noreturn void on_error(j_common_ptr jpeg) {
     reading *const r = (reading *)jpeg;
     char text[JMSG_LENGTH_MAX];
     r->errors.format_message(jpeg, text);
-    snprintf(r->reason->text, sizeof r->reason->text, "%.150s", text);
+    snprintf(r->reason->text, sizeof r->reason->text, "libjpeg: %.140s", text);
     longjmp(r->failed, 1);
 }
 

@@ -19,7 +19,7 @@ static bool begins_tga(const unsigned char *data, size_t size) {
 }
 
 static bool fail(texels_reason *reason) {
-    snprintf(reason->text, sizeof reason->text, "%s", stbi_failure_reason());
+    snprintf(reason->text, sizeof reason->text, "stb_image: %s", stbi_failure_reason());
     return false;
 }
 

@@ -113,7 +113,7 @@ static bool read_stamp(const char *path, stamp *of, cli_error *error) {
     if (is_whole(of->part[0], REFERENCE_SAMPLES_MAX) &&
         is_whole(of->part[2], REFERENCE_PARTS_MAX) && is_whole(of->part[1], of->part[2]))
         return true;
-    return cli_fail(error, path, "is no part of a reference (layer \"part\" is damaged)");
+    return cli_fail(error, path, "is not part of a reference (layer \"part\" is damaged)");
 }
 
 /* Every part belongs to the first one's run and is there once. */

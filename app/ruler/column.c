@@ -62,7 +62,7 @@ static bool read_line(column *c, int number, const char *line, cli_error *error)
     const ruler_row *const row =
         bsearch(&key, c->table->rows, (size_t)c->table->count, sizeof *c->table->rows, compare_ids);
     if (!row)
-        return cli_fail(error, c->path, "line %d: row %.*s is none of the %d rows asked for",
+        return cli_fail(error, c->path, "line %d: row %.*s is not one of the %d rows asked for",
                         number, (int)id_length, line, c->table->count);
     const size_t index = (size_t)(row - c->table->rows);
     if (c->lines[index])
@@ -132,7 +132,7 @@ bool ruler_column_read(const char *path, const ruler_table *table, double **valu
     if (!ok)
         cli_fail(error, NULL, "out of memory");
     else if (strlen(text) != size)
-        ok = cli_fail(error, path, "is no text");
+        ok = cli_fail(error, path, "is not text");
     ok = ok && read_lines(&c, text, error) && check_complete(&c, error);
     free(text);
     free(c.lines);

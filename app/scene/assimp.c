@@ -161,8 +161,11 @@ static const struct aiScene *run_assimp(assimp_job *job, cli_error *error) {
     }
     if (!imported || !imported->mRootNode) {
         const char *reason = aiGetErrorString();
-        cli_fail(error, job->sources->subject, "cannot be read: %.300s",
-                 reason && reason[0] ? reason : "it is damaged");
+        if (reason && reason[0])
+            cli_fail(error, job->sources->subject,
+                     "is damaged, or not what its name says (Assimp: %.300s)", reason);
+        else
+            cli_fail(error, job->sources->subject, "is damaged, or not what its name says");
         return NULL;
     }
     return imported;

@@ -93,7 +93,7 @@ static bool load_buffer(gltf *document, size_t i, cli_error *error) {
         return load_fallback(document, i, error);
     if (strncmp(uri, "data:", 5) == 0) {
         if (!gltf_data_uri(uri, buffer))
-            return gltf_fail(document, GLTF_BUFFERS, i, "is no valid data URI", error);
+            return gltf_fail(document, GLTF_BUFFERS, i, "is not a valid data URI", error);
     } else if (uri[0]) {
         const source *found;
         if (!sources_read(document->sources, uri, &found, error))
@@ -157,7 +157,8 @@ static bool load_view(gltf *document, size_t i, cli_error *error) {
     if (!document->views[i].bytes && !(end <= (double)room))
         return gltf_fail(document, GLTF_VIEWS, i, "reaches outside its buffer", error);
     if ((int)gltf_number(view, "byteStride", 4.0) % 4 != 0)
-        return gltf_fail(document, GLTF_VIEWS, i, "has a stride that is no multiple of 4", error);
+        return gltf_fail(document, GLTF_VIEWS, i, "has a stride that is not a multiple of 4",
+                         error);
     return true;
 }
 

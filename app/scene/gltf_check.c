@@ -17,7 +17,7 @@ typedef struct walk {
 } walk;
 
 static bool fail(const walk *w, const char *wrong) {
-    return cli_fail(w->error, w->document->subject, "is no valid glTF: %s %s", w->path, wrong);
+    return cli_fail(w->error, w->document->subject, "is not valid glTF: %s %s", w->path, wrong);
 }
 
 /* Steps into a member or, with name NULL, an entry; returns the length to step back to. */
@@ -66,12 +66,12 @@ static bool is_choice(const char *choices, const cJSON *value) {
 
 static bool check_number(const walk *w, const gltf_field *field, cJSON *value) {
     if (!cJSON_IsNumber(value))
-        return fail(w, "is no number");
+        return fail(w, "is not a number");
     const double number = value->valuedouble;
     if (!isfinite(number))
         return fail(w, "is not a finite number");
     if (field->type == GLTF_TYPE_INTEGER && number != floor(number))
-        return fail(w, "is no whole number");
+        return fail(w, "is not a whole number");
     const bool any = field->minimum == 0.0 && field->maximum == 0.0;
     if (!any && field->type == GLTF_TYPE_NUMBER) {
         clamp_number(w, field, value);
@@ -95,7 +95,7 @@ static bool check_object(walk *w, const gltf_object *object, cJSON *value);
 static bool check_references(walk *w, const gltf_field *field, cJSON *value) {
     cJSON *item;
     if (!cJSON_IsObject(value))
-        return fail(w, "is no object");
+        return fail(w, "is not an object");
     cJSON_ArrayForEach(item, value) {
         const size_t before = step(w, item->string, 0);
         if (!check_reference(w, field, item))
@@ -113,7 +113,7 @@ static bool check_value(walk *w, const gltf_field *field, cJSON *value) {
         ok = check_number(w, field, value);
         break;
     case GLTF_TYPE_TEXT:
-        ok = cJSON_IsString(value) || fail(w, "is no text");
+        ok = cJSON_IsString(value) || fail(w, "is not text");
         break;
     case GLTF_TYPE_FLAG:
         ok = cJSON_IsBool(value) || fail(w, "is neither true nor false");
@@ -129,7 +129,7 @@ static bool check_value(walk *w, const gltf_field *field, cJSON *value) {
         break;
     }
     return ok && (!field->choices || field->forgiven || is_choice(field->choices, value) ||
-                  fail(w, "is none of the values that glTF knows"));
+                  fail(w, "is not one of the values that glTF knows"));
 }
 
 /* --- arrays ----------------------------------------------------------------------------------- */
@@ -159,7 +159,7 @@ static bool check_array(walk *w, const gltf_field *field, cJSON *array) {
     cJSON *item;
     size_t count = 0;
     if (!cJSON_IsArray(array))
-        return fail(w, "is no array");
+        return fail(w, "is not an array");
     cJSON_ArrayForEach(item, array) {
         const size_t before = step(w, NULL, count++);
         if (!check_value(w, field, item))
@@ -215,7 +215,7 @@ static bool check_extensions(walk *w, const gltf_object *object, cJSON *value) {
         return true;
     const size_t before = step(w, "extensions", 0);
     if (!cJSON_IsObject(extensions))
-        return fail(w, "is no object");
+        return fail(w, "is not an object");
     if (!check_fields(w, known, extensions))
         return false;
     cJSON_ArrayForEach(item, extensions) {
@@ -234,7 +234,7 @@ static bool check_extensions(walk *w, const gltf_object *object, cJSON *value) {
 static bool check_object(walk *w, const gltf_object *object, cJSON *value) {
     const char *const holder = w->noun;
     if (!cJSON_IsObject(value))
-        return fail(w, "is no object");
+        return fail(w, "is not an object");
     w->noun = object->noun;
     const bool ok = check_fields(w, object->fields, value) && check_extensions(w, object, value);
     w->noun = holder;
@@ -244,7 +244,7 @@ static bool check_object(walk *w, const gltf_object *object, cJSON *value) {
 bool gltf_check_schema(const gltf *document, cli_error *error) {
     walk w = { .document = document, .error = error };
     if (!cJSON_IsObject(document->root))
-        return cli_fail(error, document->subject, "is no valid glTF: it is no JSON object");
+        return cli_fail(error, document->subject, "is not valid glTF: it is not a JSON object");
     return check_object(&w, &gltf_schema, document->root);
 }
 
@@ -263,12 +263,12 @@ bool gltf_check_version(const gltf *document, cli_error *error) {
     int major, minor, least_major = 2, least_minor = 0;
     if (!parse_version(version, &major, &minor))
         return cli_fail(error, document->subject,
-                        "is no valid glTF: asset.version is no version as 2.0");
+                        "is not valid glTF: asset.version is not a version such as 2.0");
     if (major != 2)
         return cli_fail(error, document->subject, "is glTF %.16s (version 2.0 is read)", version);
     if (least[0] && !parse_version(least, &least_major, &least_minor))
         return cli_fail(error, document->subject,
-                        "is no valid glTF: asset.minVersion is no version as 2.0");
+                        "is not valid glTF: asset.minVersion is not a version such as 2.0");
     if (least_major != 2 || least_minor > 0)
         return cli_fail(error, document->subject,
                         "needs a reader of glTF %.16s (version 2.0 is read)", least);

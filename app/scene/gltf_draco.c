@@ -52,7 +52,7 @@ static const char *unpack(gltf *document, const cJSON *primitive, const cJSON *p
     const long indices = gltf_index(primitive, "indices");
     const cJSON *item;
     if (indices < 0 || gltf_number(primitive, "mode", 4.0) != 4.0)
-        return "is compressed by Draco and is no indexed list of triangles";
+        return "is compressed by Draco and is not an indexed list of triangles";
     draco_mesh *const mesh = draco_mesh_decode(from.bytes, from.size);
     if (!mesh)
         return is_there_plain(document, primitive, packed)

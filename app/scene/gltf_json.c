@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 /* --- members ---------------------------------------------------------------------------------- */
 
@@ -54,7 +55,7 @@ static uint32_t little_endian(const unsigned char *bytes) {
 static bool split_glb(gltf *document, const unsigned char *data, size_t size, gltf_bytes *json,
                       cli_error *error) {
     if (size < GLB_HEADER + GLB_CHUNK || little_endian(data + 4) != 2)
-        return cli_fail(error, document->subject, "is no GLB file of version 2");
+        return cli_fail(error, document->subject, "is not a GLB file of version 2");
     const uint32_t length = little_endian(data + 8);
     if (length > size)
         return cli_fail(error, document->subject, "is truncated: %zu of %u bytes are there", size,
@@ -67,8 +68,8 @@ static bool split_glb(gltf *document, const unsigned char *data, size_t size, gl
         const uint32_t chunk = left < GLB_CHUNK ? 0 : little_endian(data + at);
         const uint32_t type = left < GLB_CHUNK ? 0 : little_endian(data + at + 4);
         if (left < GLB_CHUNK || chunk > left - GLB_CHUNK)
-            return cli_fail(error, document->subject, "is damaged: chunk %d has no valid length",
-                            number);
+            return cli_fail(error, document->subject,
+                            "is damaged: chunk %d has an impossible length", number);
         next = at + GLB_CHUNK + chunk;
         if ((type == GLB_JSON) != (number == 0) || (type == GLB_BIN && number != 1))
             return cli_fail(error, document->subject,
@@ -125,6 +126,16 @@ static bool make_list(const cJSON *holder, const char *name, gltf_list *list) {
     return true;
 }
 
+/* Whether a file is called a GLB and holds neither that nor glTF's JSON. */
+static bool only_claims_glb(const gltf *document, const unsigned char *bytes, size_t size) {
+    const size_t length = strlen(document->subject);
+    size_t blanks = 0;
+    while (blanks < size && bytes[blanks] <= 32 && bytes[blanks] > 0)
+        blanks++;
+    return length > 4 && strcasecmp(document->subject + length - 4, ".glb") == 0 &&
+           (blanks == size || bytes[blanks] != '{');
+}
+
 bool gltf_parse(gltf *document, const void *data, size_t size, cli_error *error) {
     static const char *const names[GLTF_KINDS] = {
         [GLTF_ACCESSORS] = "accessors", [GLTF_ANIMATIONS] = "animations",
@@ -145,6 +156,9 @@ bool gltf_parse(gltf *document, const void *data, size_t size, cli_error *error)
     }
     while (json.size > 0 && json.bytes[json.size - 1] == 0)
         json.size--;
+    if (json.bytes == (const unsigned char *)data && only_claims_glb(document, data, size))
+        return cli_fail(error, document->subject,
+                        "is not a GLB file: its first bytes are not \"glTF\"");
     document->root = file_parse_json(document->subject, (const char *)json.bytes, json.size, error);
     if (!document->root)
         return false;
@@ -152,7 +166,7 @@ bool gltf_parse(gltf *document, const void *data, size_t size, cli_error *error)
     const char *repeated = repeated_name(document->root, &out_of_memory);
     if (repeated)
         return cli_fail(error, document->subject,
-                        "is no valid glTF: \"%.100s\" is there twice in one object", repeated);
+                        "is not valid glTF: \"%.100s\" is there twice in one object", repeated);
     const cJSON *punctual = gltf_extension(document->root, "KHR_lights_punctual");
     for (int kind = 0; kind < GLTF_KINDS && !out_of_memory; kind++)
         out_of_memory = !make_list(kind == GLTF_LIGHTS ? punctual : document->root, names[kind],
@@ -169,6 +183,6 @@ bool gltf_fail(const gltf *document, gltf_kind kind, size_t index, const char *w
         [GLTF_NODES] = "node",         [GLTF_SAMPLERS] = "sampler",     [GLTF_SCENES] = "scene",
         [GLTF_SKINS] = "skin",         [GLTF_TEXTURES] = "texture",
     };
-    return cli_fail(error, document->subject, "is no valid glTF: %s %zu %s", nouns[kind], index,
+    return cli_fail(error, document->subject, "is not valid glTF: %s %zu %s", nouns[kind], index,
                     wrong);
 }

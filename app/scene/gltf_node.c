@@ -173,7 +173,7 @@ static bool order_trees(const gltf *document, long *stack, cli_error *error) {
         }
     return ordered == count ||
            cli_fail(error, document->subject,
-                    "is no valid glTF: nodes are children of themselves, in a loop");
+                    "is not valid glTF: nodes are children of themselves, in a loop");
 }
 
 bool gltf_load_nodes(gltf *document, cli_error *error) {

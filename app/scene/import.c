@@ -190,8 +190,9 @@ static bool prepare(const char *path, import_job *job, cli_error *error) {
     if (job->size == 0)
         return cli_fail(error, path, "is empty");
     if (!job->read)
-        return cli_fail(error, path,
-                        "is no scene: a file of glTF, OBJ, PLY, STL, FBX or the like is wanted");
+        return cli_fail(
+            error, path,
+            "is not a scene that can be read: give a .gltf, .glb, .obj, .ply, .stl or .fbx file");
     if (!realpath(folder, job->folder))
         return cli_fail(error, path, "is in a folder that cannot be opened: %s", strerror(errno));
     /* The file was inside; its folder may have been swapped since. */

@@ -179,7 +179,7 @@ static const struct {
 } ranges[] = {
     [SCENE_LIGHT_POSITION] = { is_position, "is not finite, or beyond 1e17" },
     [SCENE_LIGHT_RADIUS] = { is_radius, "is not above 0, or above 1e17" },
-    [SCENE_LIGHT_DIRECTION] = { is_direction, "is no direction" },
+    [SCENE_LIGHT_DIRECTION] = { is_direction, "is not a direction" },
     [SCENE_LIGHT_ANGLE] = { is_angle, "is not in 0 to pi" },
     [SCENE_LIGHT_COLOR] = { scene_color_fits, "is negative, not finite or above 1e19" },
 };

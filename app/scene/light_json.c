@@ -32,7 +32,7 @@ static bool read_kind(const cJSON *object, scene_light *light, scene_light_error
         }
     for (int i = 0; i < LMP_LIGHT_KINDS; i++)
         used += (size_t)snprintf(error->text + used, sizeof error->text - used, "%s%s",
-                                 i ? ", " : ".kind is none of ", scene_light_kinds[i].name);
+                                 i ? ", " : ".kind is not one of ", scene_light_kinds[i].name);
     return false;
 }
 
@@ -118,7 +118,7 @@ bool scene_light_from_json(const cJSON *object, const double origin[3], scene_li
                            scene_light_error *error) {
     *light = (scene_light) { .hidden = 0 };
     if (!cJSON_IsObject(object)) {
-        snprintf(error->text, sizeof error->text, " is no object");
+        snprintf(error->text, sizeof error->text, " is not an object");
         return false;
     }
     if (!read_kind(object, light, error))

@@ -44,7 +44,7 @@ typedef struct obj_reader {
 } obj_reader;
 
 static bool fail(const obj_reader *r, const char *wrong) {
-    return cli_fail(r->error, r->sources->subject, "is no valid OBJ: line %zu %s", r->words.line,
+    return cli_fail(r->error, r->sources->subject, "is not valid OBJ: line %zu %s", r->words.line,
                     wrong);
 }
 

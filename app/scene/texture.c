@@ -53,7 +53,7 @@ static bool check_size(const format_row *format, size_t size, int width, int hei
 
 static bool fail_format(texture_format formats, const char *subject, const char *name,
                         cli_error *error) {
-    return cli_fail(error, subject, "has a texture \"%.200s\" that is no %s", name,
+    return cli_fail(error, subject, "has a texture \"%.200s\" that is not a %s", name,
                     formats == TEXTURE_GLTF ? "PNG, JPEG or WebP" : "PNG, JPEG, WebP, TGA or BMP");
 }
 

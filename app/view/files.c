@@ -87,7 +87,7 @@ static const struct {
 bool view_take_file(view_state *s, const char *file, cli_error *error) {
     const char *base = base_name(file), *dot = strrchr(base, '.');
     if (file_is_standard_input(file))
-        return cli_fail(error, file, "is no file");
+        return cli_fail(error, file, "is not a file");
     for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
         if (strcmp(dot, kinds[i].ending) == 0)
             return kinds[i].take(s, file, error);

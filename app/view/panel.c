@@ -45,7 +45,7 @@ static cJSON *parse_light(const scene_light *light, const double origin[3],
     char numbers[VIEW_TYPED_SIZE + 2];
     snprintf(numbers, sizeof numbers, strchr(typed, ',') ? "[%s]" : "%s", typed);
     if (file_json_wrong(numbers, strlen(numbers))) {
-        cli_fail(error, typed, "is no number, nor three divided by commas");
+        cli_fail(error, typed, "is neither a number nor three numbers separated by commas");
         return NULL;
     }
     cJSON *object = scene_light_to_json(light, origin);

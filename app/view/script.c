@@ -119,10 +119,11 @@ static bool read_lines(const char *path, char *text, view_script *script, cli_er
         view_script_line *to = &script->lines[script->count];
         if (w.count < 2 || !w.is_number[0] || !(w.numbers[0] >= before) ||
             !(w.numbers[0] <= SECONDS_MAX))
-            return cli_fail(error, path,
-                            "line %d is no event: SECONDS, not less than before, up to 1e6, then "
-                            "what happens",
-                            number);
+            return cli_fail(
+                error, path,
+                "line %d is not an event: SECONDS, not less than before, up to 1e6, then "
+                "what happens",
+                number);
         to->seconds = before = w.numbers[0];
         if (!read_event(&w, to))
             return cli_fail(error, path, "line %d: %s is not understood as it is written", number,
@@ -144,7 +145,7 @@ bool view_script_read(const char *path, view_script *script, cli_error *error) {
     char *text = data;
     for (size_t i = 0; i < size; i++)
         lines += text[i] == '\n';
-    bool ok = strlen(text) == size || cli_fail(error, path, "is no text");
+    bool ok = strlen(text) == size || cli_fail(error, path, "is not text");
     /* an event has at least "0 key m" */
     script->lines = calloc(lines < size / 7 + 1 ? lines : size / 7 + 1, sizeof *script->lines);
     ok = ok && (script->lines || cli_fail(error, path, "out of memory")) &&

@@ -24,7 +24,7 @@ static bool describe(void *context, int output, cli_error *error) {
     lmp_field *field;
     const lmp_result result = lmp_field_read(NULL, bytes->data, bytes->size, &field);
     if (result == LMP_ERROR_FORMAT)
-        return cli_fail(error, bytes->path, "is no field (lampion field makes them)");
+        return cli_fail(error, bytes->path, "is not a field (lampion field makes them)");
     if (result != LMP_OK)
         return cli_fail(error, bytes->path, "%s", lmp_result_text(result));
     memset(&facts, 0, sizeof facts);

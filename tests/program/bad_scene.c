@@ -49,6 +49,12 @@ static void what_is_no_scene_is_refused(void **state) {
     folder_write_text("text.obj", "nothing to see here\n");
     folder_write_text("letter.ase", "hello world, this is a letter\n");
     assert_refused("letter.ase", "has no triangles");
+    folder_write_text("text.glb", "nothing to see here\n");
+    assert_refused("text.glb", "is not a GLB file: its first bytes are not \"glTF\"");
+    folder_write_text("json.glb", " \n{\"asset\":{\"version\":\"2.0\"}}");
+    assert_refused("json.glb", "has no triangles");
+    folder_write_text("text.stl", "nothing to see here\n");
+    assert_refused("text.stl", "is damaged, or not what its name says (Assimp: ");
     folder_write_text("text.gltf", "nothing to see here\n");
     folder_write_text("mark.gltf", "\xef\xbb\xbf{\"asset\":{\"version\":\"2.0\"}}");
     folder_write_text("wrong.txt", "v 0 0 0\n");
@@ -57,12 +63,12 @@ static void what_is_no_scene_is_refused(void **state) {
     assert_int_equal(mkfifo(in_folder("fifo.gltf"), 0600), 0);
     assert_refused("missing.gltf", "does not exist");
     assert_refused("empty.gltf", "is empty");
-    assert_refused("blank.gltf", "is no valid JSON");
+    assert_refused("blank.gltf", "is not valid JSON");
     assert_refused("text.obj", "text.obj: ");
-    assert_refused("text.gltf", "is no valid JSON");
+    assert_refused("text.gltf", "is not valid JSON");
     assert_refused("mark.gltf", "has no triangles");
-    assert_refused("wrong.txt", "is no scene");
-    assert_refused("image.png", "is no scene");
+    assert_refused("wrong.txt", "is not a scene");
+    assert_refused("image.png", "is not a scene");
     assert_refused("directory.gltf", "is a directory");
     assert_refused("fifo.gltf", "is not a regular file");
     assert_refused("a\nname\x1b[31m", "does not exist");
@@ -91,7 +97,7 @@ static void truncated_files_are_refused(void **state) {
     static const char whole[] = HEAD MESH ACCESSOR VIEW BUFFER;
     for (size_t length = 1; length + 1 < sizeof whole; length += 13) {
         folder_write("truncated.gltf", whole, length);
-        assert_refused("truncated.gltf", "is no valid JSON");
+        assert_refused("truncated.gltf", "is not valid JSON");
     }
     /* the same as GLB: header, JSON chunk, BIN chunk */
     static const char json[] = HEAD MESH ACCESSOR VIEW "\"buffers\":[{\"byteLength\":36}]}   ";
@@ -114,7 +120,7 @@ static void truncated_files_are_refused(void **state) {
     }
     for (size_t length = 4; length < all; length += 17) {
         folder_write("truncated.glb", glb, length);
-        assert_refused("truncated.glb", length < 20 ? "is no GLB" : "is truncated");
+        assert_refused("truncated.glb", length < 20 ? "is not a GLB" : "is truncated");
     }
 }
 
@@ -215,7 +221,7 @@ static void impossible_nodes_are_refused(void **state) {
     assert_nodes_refused("\"nodes\":[{\"children\":[17]}]", "nodes[0].children[0]");
     assert_nodes_refused("\"nodes\":[{\"mesh\":4}]", "nodes[0].mesh");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e999,1,1]}]", "nodes[0].scale[0]");
-    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[NaN,1,1]}]", "is no valid JSON");
+    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[NaN,1,1]}]", "is not valid JSON");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e300,1e300,1]}]", "finite");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"translation\":[2e17,0,0]}]",
                          "finite position (up to");
@@ -223,7 +229,7 @@ static void impossible_nodes_are_refused(void **state) {
     memset(nested, '[', sizeof nested - 1);
     nested[0] = '{';
     folder_write_text("nested.gltf", nested);
-    assert_refused("nested.gltf", "is no valid JSON");
+    assert_refused("nested.gltf", "is not valid JSON");
 }
 
 static void a_chain_of_many_nodes_is_read(void **state) {

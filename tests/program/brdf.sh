@@ -71,5 +71,5 @@ refuse 2 '-o FILE is needed' plot lambert:1
 refuse 2 'needs one MATERIAL' info
 refuse 2 'bands needs a MATERIAL' bands
 refuse 2 'list takes no MATERIAL' list x
-refuse 2 'is none of info.*did you mean bake' bkae lambert:1
-refuse 2 'is none of info' paint lambert:1
+refuse 2 'is not one of info.*did you mean bake' bkae lambert:1
+refuse 2 'is not one of info' paint lambert:1

@@ -22,7 +22,7 @@ static void replace_value(const char *value, const char *to, const char *what) {
     char *text = malloc(sizeof document + strlen(to));
     assert_non_null(text);
     sprintf(text, "%.*s%s%s", (int)(value - document), document, to, value_end(value));
-    expect(text, "input: is no valid glTF: ", what);
+    expect(text, "input: is not valid glTF: ", what);
     free(text);
 }
 
@@ -105,7 +105,7 @@ static void what_must_be_there_is_missed(void **state) {
         char renamed[64];
         snprintf(renamed, sizeof renamed, "\"_%s", fields[i] + 1);
         char *text = changed(fields[i], renamed);
-        expect(text, "input: is no valid glTF: ", fields[i]);
+        expect(text, "input: is not valid glTF: ", fields[i]);
         free(text);
     }
 }

@@ -148,8 +148,8 @@ static void damaged_containers_are_refused(void **state) {
     } damages[] = { { 4, 1, "version 2" },
                     { 8, 0, "is" },
                     { 16, 'X', "not JSON" },
-                    { 12, 0xff, "no valid length" },
-                    { 20, ' ', "is no valid JSON" } };
+                    { 12, 0xff, "an impossible length" },
+                    { 20, ' ', "is not valid JSON" } };
     for (size_t i = 0; i < sizeof damages / sizeof *damages; i++) {
         const unsigned char kept = glb[damages[i].at];
         glb[damages[i].at] = damages[i].value;
@@ -175,25 +175,25 @@ static void what_is_no_json_is_refused(void **state) {
         { " \t\r\n{\"asset\":{\"version\":\"2.0\"}}\n", NULL },
         { "\xef\xbb\xbf{\"asset\":{\"version\":\"2.0\"}}", NULL },
         { "{\"asset\":{\"version\":\"2.0\"}} more",
-          "is no valid JSON: line 1, column 29: something stands after its end" },
-        { "{\"asset\":{\"version\":\"2.0\"}}\n}", "is no valid JSON: line 2" },
+          "is not valid JSON: line 1, column 29: something stands after its end" },
+        { "{\"asset\":{\"version\":\"2.0\"}}\n}", "is not valid JSON: line 2" },
         { "{\"asset\":{\"version\":\"2.0\"},}", "a comma stands before the bracket that closes" },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":01}", "a number does not begin with 0" },
-        { "{\"asset\":{\"version\":\"2.0\"},\"a\":+1}", "is no valid JSON" },
-        { "{\"asset\":{\"version\":\"2.0\"},\"a\":1.}", "is no valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\"},\"a\":+1}", "is not valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\"},\"a\":1.}", "is not valid JSON" },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":.5}", "a number begins with a digit or -" },
-        { "{\"asset\":{\"version\":\"2.0\"},\"a\":0x1}", "is no valid JSON" },
-        { "{\"asset\":{\"version\":\"2.0\"},\"a\":nan}", "is no valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\"},\"a\":0x1}", "is not valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\"},\"a\":nan}", "is not valid JSON" },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":-0.5e-3}", NULL },
-        { "{\"asset\\u0000zzz\":{\"version\":\"2.0\"}}", "is no valid JSON" },
-        { "{\"asset\":{\"version\":\"2.0\\u0000\"}}", "is no valid JSON" },
+        { "{\"asset\\u0000zzz\":{\"version\":\"2.0\"}}", "is not valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\\u0000\"}}", "is not valid JSON" },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":\"\\u00e9\\n\"}", NULL },
-        { "{\"asset\":{\"version\":\"2.0\"},\"a\":\"\\x\"}", "is no valid JSON" },
-        { "{\"asset\":{\"version\":\"2.0\"},\"a\":\"\n\"}", "is no valid JSON" },
-        { "{\"asset\":{\"version\":\"2.0\"},'a':1}", "is no valid JSON" },
-        { "{\"asset\":{\"version\":\"2.0\"}", "is no valid JSON" },
-        { "[]", "is no valid glTF" },
-        { "", "is no valid JSON" }
+        { "{\"asset\":{\"version\":\"2.0\"},\"a\":\"\\x\"}", "is not valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\"},\"a\":\"\n\"}", "is not valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\"},'a':1}", "is not valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\"}", "is not valid JSON" },
+        { "[]", "is not valid glTF" },
+        { "", "is not valid JSON" }
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         expect_bytes(cases[i].text, strlen(cases[i].text), cases[i].refusal);

@@ -114,7 +114,7 @@ static void what_cannot_be_decoded_is_named(void **state) {
     write_file("", damaged, sizeof sheet);
     refuse("mesh 0 is compressed by Draco, and cannot be decoded");
     write_file(",\"mode\":5", sheet, sizeof sheet);
-    refuse("mesh 0 is compressed by Draco and is no indexed list of triangles");
+    refuse("mesh 0 is compressed by Draco and is not an indexed list of triangles");
 }
 
 /* Bytes that claim a billion faces take no memory for them. */

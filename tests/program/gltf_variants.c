@@ -107,9 +107,9 @@ static void an_unknown_variant_is_refused_by_those_there_are(void **state) {
         const char *name, *variant, *wrong;
     } cases[] = {
         { "two.gltf", "dai",
-          "no such variant: \"dai\" is none of day, late?night, dusk (did you mean day?)" },
-        { "two.gltf", "3", "no such variant: \"3\" is none of day, late?night, dusk" },
-        { "two.gltf", "", "no such variant: \"\" is none of day, late?night, dusk" },
+          "no such variant: \"dai\" is not one of day, late?night, dusk (did you mean day?)" },
+        { "two.gltf", "3", "no such variant: \"3\" is not one of day, late?night, dusk" },
+        { "two.gltf", "", "no such variant: \"\" is not one of day, late?night, dusk" },
         { "flat.obj", "day", "no such variant: \"day\", for there is none" },
     };
     folder_write_text("two.gltf", two_triangles);

@@ -68,7 +68,7 @@ grep -q 'closed forms' "$WORK/broken/index.html" || fail "the failure stopped th
 mkdir "$WORK/it's a \\ folder"
 echo nonsense >"$WORK/it's a \\ folder/scene --spp 1.gltf"
 "$PROGRAM" paper -o "$WORK/blanks" --step sponza --sponza "$WORK/it's a \\ folder/scene --spp 1.gltf" >"$WORK/out" 2>"$WORK/err" || true
-grep -qF "it's a \\ folder/scene --spp 1.gltf: is no valid JSON" "$WORK/err" || fail "a name with blanks: $(cat "$WORK/err")"
+grep -qF "it's a \\ folder/scene --spp 1.gltf: is not valid JSON" "$WORK/err" || fail "a name with blanks: $(cat "$WORK/err")"
 grep -qF "it'\\''s a \\ folder/scene --spp 1.gltf' --random-lights" "$WORK/blanks/index.html" || fail "the page tells no command"
 
 status=0

@@ -134,7 +134,7 @@ static void formats_that_no_page_names_are_refused(void **state) {
         assert_false(texture_keep(&builder, images[i].bytes, images[i].size, TEXTURE_ANY, "scene",
                                   "image", &texture, &error));
         assert_string_equal(
-            error.text, "scene: has a texture \"image\" that is no PNG, JPEG, WebP, TGA or BMP");
+            error.text, "scene: has a texture \"image\" that is not a PNG, JPEG, WebP, TGA or BMP");
         assert_int_equal(builder_count(&builder, BLOB_IMAGES), 0);
         builder_free(&builder);
     }

@@ -29,5 +29,5 @@ done
 ! "$PROGRAM" field scene.gltf --variant noon --grid 2x2x2 --bands 2 -o noon.json 2>noon.log || fail "field takes any variant"
 grep -q night noon.log || fail "field does not say which variants there are: $(cat noon.log)"
 "$PROGRAM" render scene.gltf --variant noon $view -o noon.png 2>errors && fail "an unknown variant is drawn"
-[ "$(cat errors)" = 'lampion: scene.gltf: no such variant: "noon" is none of day, night' ] || fail "$(cat errors)"
+[ "$(cat errors)" = 'lampion: scene.gltf: no such variant: "noon" is not one of day, night' ] || fail "$(cat errors)"
 [ ! -e noon.png ] || fail "an image of an unknown variant is there"

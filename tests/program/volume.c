@@ -273,7 +273,7 @@ static void info_tells_what_a_field_holds(void **state) {
     assert_non_null(strstr(read_text("err", &size), "damaged.lmpf: "));
     folder_write_text("none.lmpf", "{}");
     assert_int_equal(info("none.lmpf"), 1);
-    assert_non_null(strstr(read_text("err", &size), "none.lmpf: is no field"));
+    assert_non_null(strstr(read_text("err", &size), "none.lmpf: is not a field"));
 }
 
 /* --- shadows ---------------------------------------------------------------------------------- */

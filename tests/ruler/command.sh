@@ -45,8 +45,8 @@ refuse() {
 }
 refuse 'row 17 is missing (1 of ' '/^17,/d'
 refuse 'line 19: row 17 is repeated (first on line 18)' '/^17,/p'
-refuse 'row 99999 is none of the ' '$s/^[0-9]*/99999/'
-refuse 'row 17.5 is none of the ' 's/^17,/17.5,/'
+refuse 'row 99999 is not one of the ' '$s/^[0-9]*/99999/'
+refuse 'row 17.5 is not one of the ' 's/^17,/17.5,/'
 refuse 'line 18: row 17: "nan" is not a finite number' 's/^17,.*/17,nan/'
 refuse 'line 18: row 17: "inf" is not a finite number' 's/^17,.*/17,inf/'
 refuse 'line 18: row 17: "" is not a finite number' 's/^17,.*/17,/'

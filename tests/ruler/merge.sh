@@ -32,7 +32,7 @@ refuse 'part 2 of 3 is missing (--partial joins the others)' merge 3.exr 1.exr -
 refuse '1.exr: is part 1 of 3, as 1.exr is' merge 1.exr 1.exr -o bad.exr
 refuse 'whole.exr: has no layer "run"' merge whole.exr -o bad.exr
 refuse 'expected the parts' merge -o bad.exr
-refuse 'is no .exr' merge 1.exr -o bad.png
+refuse 'is not a .exr file' merge 1.exr -o bad.png
 # the words are the same, and what they name is another
 "$PROGRAM" brdf bake lambert:0.2 --bands 4 --views 4 -o paint.lmpt
 "$PROGRAM" reference "$@" --material 'plastic 1.00=paint.lmpt' --shard 1/2 -o paint1.exr
