@@ -24,6 +24,7 @@ static struct {
     cli_error error;
     scene world;
     animation *path;
+    size_t lanterns; /* the first lights, which hang in paper lanterns of the scene: they rest */
     scene_light moved[SCENE_LIGHTS_MAX];
     shared_light lights[SHARED_LIGHTS_MAX];
     shared_material *materials;
@@ -42,7 +43,8 @@ void sandbox_progress(double done) {
 /* A page reads the one file that is dropped on it. */
 int sandbox_open(const char *name, int *number, cli_error *error) {
     *number = -1;
-    cli_fail(error, "scene", "refers to \"%.200s\", which does not exist", name);
+    cli_fail(error, "file",
+             "refers to another file, \"%.200s\": use a .glb, which holds everything", name);
     return -1;
 }
 
@@ -96,6 +98,7 @@ EXPORT const char *demo_open_builtin(const char *name) {
     scene_builder builder = { 0 };
     const bool ok = builtin_make(name, &builder, &demo.error) && take(&builder, "builtin");
     builder_free(&builder);
+    demo.lanterns = ok && strncmp(name, "atrium", 6) == 0 ? demo.world.light_count : 0;
     return outcome(ok);
 }
 
@@ -109,7 +112,17 @@ EXPORT const char *demo_open_file(const void *data, size_t size) {
         ok = cli_fail(&demo.error, name, "has no triangles");
     ok = ok && take(&builder, name);
     builder_free(&builder);
+    demo.lanterns = ok ? 0 : demo.lanterns;
     return outcome(ok);
+}
+
+/* What of the file is not shown, or "". */
+EXPORT const char *demo_left_out(void) {
+    static char text[2 * SCENE_NAME_SIZE + 32];
+    text[0] = '\0';
+    if (demo.world.left_out_count > 0)
+        scene_left_out_text(&demo.world.left_out[0], text, sizeof text);
+    return text;
 }
 
 typedef struct demo_draw {
@@ -181,10 +194,14 @@ EXPORT const float *demo_camera(float aspect) {
 
 /* --- lights ----------------------------------------------------------------------------------- */
 
-/* So many others, in place of what there is. */
+/* So many in all: the lanterns, if the scene has any, and others. */
 EXPORT const char *demo_scatter_lights(int count, uint32_t seed) {
-    scene_clear_lights(&demo.world);
-    return outcome(scene_add_random_lights(&demo.world, count, seed, &demo.error));
+    const int others = count - (int)demo.lanterns;
+    if (demo.lanterns == 0)
+        scene_clear_lights(&demo.world);
+    else
+        demo.world.light_count = demo.lanterns;
+    return outcome(others <= 0 || scene_add_random_lights(&demo.world, others, seed, &demo.error));
 }
 
 EXPORT const shared_light *demo_lights(void) {
@@ -196,6 +213,7 @@ EXPORT const shared_light *demo_lights(void) {
 EXPORT size_t demo_move_lights(double seconds) {
     size_t count = 0;
     animation_move_all(demo.path, &demo.world, seconds, demo.moved);
+    memcpy(demo.moved, demo.world.lights, demo.lanterns * sizeof *demo.moved);
     for (size_t i = 0; i < demo.world.light_count; i++) {
         const lmp_light *e = &demo.moved[i].emitter;
         if (e->kind != LMP_LIGHT_SPHERE)

@@ -33,6 +33,7 @@ export async function loadLibrary() {
     return {
         openBuiltin: (name) => lend(new TextEncoder().encode(`${name}\0`), (at) => check(c.demo_open_builtin(at))),
         openFile: (data) => lend(data, (at) => check(c.demo_open_file(at, data.byteLength))),
+        leftOut: () => text(c.demo_left_out()),
         // views of C's memory, valid until the next call that allocates
         scene() {
             const [vertices, vertexCount, indices, indexCount, materials, reflectors, materialCount, minimum, maximum] =

@@ -7,7 +7,7 @@ import { makeRenderer, methods } from './renderer.js';
 const element = (id) => document.getElementById(id);
 const canvas = element('view'), asked = new URLSearchParams(location.hash.slice(1));
 const state = {
-    scene: asked.get('scene') ?? 'atrium', lights: Number(asked.get('lights') ?? 30), bands: Number(asked.get('bands') ?? 8),
+    scene: asked.get('scene') ?? 'atrium', lights: Number(asked.get('lights') ?? 40), bands: Number(asked.get('bands') ?? 8),
     method: asked.get('method') ?? 'zonal', window: asked.get('window') ?? 'hanning', split: asked.has('split'),
     moving: !asked.has('time'), scale: asked.get('scale') ?? 'auto', divider: Number(asked.get('split') || 0.5),
 };
@@ -33,10 +33,9 @@ function openBuiltin() {
     frameScene();
 }
 
-// The atrium's own lanterns are the first 30.
+// The atrium's own lanterns are the first 30, and rest.
 function scatterLights() {
-    if (state.scene !== 'atrium' || state.lights !== 30)
-        library.scatterLights(Math.min(state.lights, renderer.lightsMost), 1);
+    library.scatterLights(Math.min(state.lights, renderer.lightsMost), 1);
     exposure = Number(asked.get('exposure') ?? 0);
 }
 
@@ -50,7 +49,8 @@ async function openFile(file) {
         tell(`${file.name}: ${error.message.replace(/^file: /, '')}`, true);
         return;
     }
-    tell('');
+    const leftOut = library.leftOut();
+    tell(leftOut && `${file.name}: left out: ${leftOut}${/file|image/.test(leftOut) ? '. Use a .glb, which holds its images.' : ''}`);
     state.scene = file.name;
     Object.assign(element('dropped'), { hidden: false, textContent: file.name, value: file.name });
     scatterLights();
@@ -156,8 +156,11 @@ addEventListener('resize', () => { due = 2; });
 addEventListener('dragover', (event) => event.preventDefault());
 addEventListener('drop', (event) => {
     event.preventDefault();
-    if (event.dataTransfer.files.length)
-        openFile(event.dataTransfer.files[0]);
+    const { files } = event.dataTransfer;
+    if (files.length > 1)
+        tell(`${files.length} files were dropped, and one is read: use a .glb, which holds everything.`, true);
+    else if (files.length)
+        openFile(files[0]);
 });
 
 // --- the panel ---

@@ -57,7 +57,7 @@ const lightAt = async (i) => JSON.stringify(await evaluate(`lampion.lightAt(${i}
 
 async function draw() {
     await browser.size(1280, 720);
-    await open('time=0&scale=1&closed');
+    await open('time=0&scale=1&closed&lights=30');
     const size = ['--size', '1280x720'];
     const same = await rendered(...size, '--bands', '8');
     console.log(`${(100 * same).toFixed(2)} % of the pixels differ by more than 2 levels; a frame takes ${
@@ -69,20 +69,20 @@ async function draw() {
 async function choose() {
     await browser.size(320, 180);
     await open('time=0&scale=1&closed&lights=100&bands=5&method=coefficients&window=none');
-    const size = ['--size', '320x180', '--random-lights', '100', '--seed', '1'];
+    const size = ['--size', '320x180', '--keep-lights', '--random-lights', '70', '--seed', '1'];
     const hundred = await rendered(...size, '--bands', '5', '--window', 'none');
     assert.ok(hundred <= edges, `100 lights by coefficients: ${hundred}`);
     assert.ok(await rendered(...size, '--bands', '6', '--window', 'none') > 2 * edges, 'another number of bands is seen');
-    await open('time=0&scale=1&closed&bands=100&method=preintegrated');
+    await open('time=0&scale=1&closed&lights=30&bands=100&method=preintegrated');
     const many = await rendered('--size', '320x180', '--bands', '100', '--method', 'preintegrated');
     assert.ok(many <= edges, `100 bands: ${many}`);
-    await open('time=0&scale=1&closed&split=0.5');
+    await open('time=0&scale=1&closed&lights=30&split=0.5');
     const split = await rendered('--size', '320x180', '--bands', '8');
     assert.ok(split > 2 * edges && split < 0.5, `half of the image has 100 bands (${split} differs)`);
 }
 
 async function drag() {
-    await open('time=0&scale=1&closed');
+    await open('time=0&scale=1&closed&lights=30');
     const light = await findLight(), before = await lightAt(light), from = await whereIs(light);
     const to = [from[0] + 40, from[1] + 30];
     const mouse = (type, [x, y]) => tell('Input.dispatchMouseEvent', { type, x, y, button: 'left', buttons: 1, clickCount: 1 });
@@ -96,6 +96,28 @@ async function drag() {
     assert.ok(await rendered('--size', '320x180', '--bands', '8') > 2 * edges, 'and its light with it');
 }
 
+// The atrium's lanterns stay where their cages are, while the other lights move.
+async function rest() {
+    await open('time=0&scale=1&closed');
+    const all = () => evaluate('lampion.draw(), Array.from({ length: 40 }, (none, i) => lampion.lightAt(i).join())');
+    const before = await all();
+    await open('time=3&scale=1&closed');
+    const after = await all();
+    assert.ok(before.every((light, i) => (light === after[i]) === (i < 30)), 'the first 30 lights alone rest');
+}
+
+// The whole panel is seen in a small window.
+async function small() {
+    await browser.size(640, 420);
+    await open('time=0&scale=0.3');
+    await until('document.getElementById("cost").textContent !== ""');
+    const panel = 'document.getElementById("panel")';
+    assert.ok(await evaluate(`${panel}.open && ${panel}.scrollHeight <= ${panel}.clientHeight`), 'the panel does not scroll');
+    assert.ok(await evaluate(`${panel}.getBoundingClientRect().bottom <= innerHeight`), 'the panel ends in the window');
+    await screenshot('small');
+    await browser.size(320, 180);
+}
+
 async function resize() {
     await browser.size(200, 150);
     await until('lampion.draw(), document.getElementById("view").width === 200');
@@ -104,7 +126,7 @@ async function resize() {
 
 async function lose() {
     await browser.size(200, 150);
-    await open('time=0&scale=1&closed');
+    await open('time=0&scale=1&closed&lights=30');
     await evaluate('globalThis.loss = lampion.gl.getExtension("WEBGL_lose_context"), loss.loseContext()');
     await until('!lampion.gl');
     await evaluate('loss.restoreContext()');
@@ -134,11 +156,15 @@ async function drop() {
     await file('broken.gltf', JSON.stringify(gltf));
     await until('/^broken.gltf: .*accessor 0/.test(document.getElementById("message").textContent)');
     assert.equal(await evaluate('lampion.draw(), document.getElementById("scene").value'), 'triangle.gltf');
+    gltf.accessors[0].count = 3;
+    gltf.buffers[0].uri = 'triangle.bin';
+    await file('parts.gltf', JSON.stringify(gltf));
+    await until('/^parts.gltf: .*triangle.bin.*use a .glb/.test(document.getElementById("message").textContent)');
 }
 
 async function phone() {
     await browser.size(390, 844, true);
-    await open('time=0&scale=0.3');
+    await open('time=0&scale=0.3&lights=30');
     assert.ok(await evaluate('document.documentElement.scrollWidth <= 390'), 'the page is no wider than a phone');
     const touch = (type, points) => tell('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y]) => ({ x, y })) });
     const light = await findLight(), before = await lightAt(light), from = await whereIs(light);
@@ -152,7 +178,7 @@ async function phone() {
 
 let status = 0;
 try {
-    for (const step of [draw, choose, drag, resize, lose, drop, phone]) {
+    for (const step of [draw, choose, rest, small, drag, resize, lose, drop, phone]) {
         console.time(step.name);
         await step();
         console.timeEnd(step.name);
