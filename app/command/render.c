@@ -111,8 +111,9 @@ static void tell_names(const render_options *o, int first, int end) {
         return;
     image_sequence_name(o->output, first, names[0], sizeof names[0]);
     image_sequence_name(o->output, end - 1, names[1], sizeof names[1]);
-    cli_note(NULL, "the frames are written to %s … %s (%%04d in -o says where the number goes)",
-             names[0], names[1]);
+    const bool several = end - first > 1;
+    cli_note(NULL, "writing %s%s%s (%%04d in -o says where the number goes)", names[0],
+             several ? " … " : "", several ? names[1] : "");
 }
 
 static bool render_frames(render_job *j, cli_error *error) {

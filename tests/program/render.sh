@@ -125,7 +125,7 @@ cmp "$WORK/own.exr" "$WORK/each.exr" || fail "info --lights gives other lights"
 
 # names of frames that FILE does not say are said; those that it says are not
 "$PROGRAM" render builtin:ball $small --frames 2-3 -o "$WORK/turn.exr" 2>"$WORK/err"
-grep -qF "the frames are written to $WORK/turn_0002.exr … $WORK/turn_0003.exr (" "$WORK/err" || fail "names of frames: $(cat "$WORK/err")"
+grep -qF "writing $WORK/turn_0002.exr … $WORK/turn_0003.exr (" "$WORK/err" || fail "names of frames: $(cat "$WORK/err")"
 [ -s "$WORK/turn_0002.exr" ] && [ -s "$WORK/turn_0003.exr" ] || fail "the frames have other names"
 "$PROGRAM" render builtin:ball $small --frames 1 -o "$WORK/turn_%d.exr" 2>"$WORK/err"
 [ -s "$WORK/turn_0.exr" ] && [ ! -s "$WORK/err" ] || fail "names that are given are told: $(cat "$WORK/err")"
