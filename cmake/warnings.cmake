@@ -9,7 +9,13 @@ if(LAMPION_WERROR)
   target_compile_options(lampion_flags INTERFACE -Werror)
 endif()
 # By the letter of C11 gcc computes floats as doubles for s390x, which rounds twice: other bits than elsewhere.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^s390" AND CMAKE_C_COMPILER_ID STREQUAL GNU)
+include(CheckCSourceCompiles)
+check_c_source_compiles("
+  #ifndef __s390__
+  #error
+  #endif
+  int main(void) { return 0; }" LAMPION_FOR_s390)
+if(LAMPION_FOR_s390 AND CMAKE_C_COMPILER_ID STREQUAL GNU)
   target_compile_options(lampion_flags INTERFACE -fexcess-precision=fast)
 endif()
 # What Debian hardens its packages with (dpkg-buildflags, hardening=+all), and shadow stacks: the program

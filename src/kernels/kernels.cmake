@@ -17,15 +17,29 @@ if(LAMPION_SANITIZE)
 endif()
 set_source_files_properties(${kernels}/scalar.c PROPERTIES COMPILE_OPTIONS "${lampion_kernel_options}")
 
+# The compiler is asked what it compiles for: CMAKE_SYSTEM_PROCESSOR is what a toolchain file or a cross build says
+# it is, and with -m32 or -arch not even that.
+include(CheckCSourceCompiles)
+foreach(target x86_64 aarch64 wasm32)
+  check_c_source_compiles("
+    #ifndef __${target}__
+    #error
+    #endif
+    int main(void) { return 0; }" LAMPION_FOR_${target})
+endforeach()
+
 set(lampion_kernel_builds "")
-if(LAMPION_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|aarch64|arm64|wasm32)$")
+if(LAMPION_SIMD AND (LAMPION_FOR_x86_64 OR LAMPION_FOR_aarch64 OR LAMPION_FOR_wasm32))
   set(lampion_kernel_builds LMP_KERNELS_VECTOR)
-  set(options ${lampion_kernel_options} $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},wasm32>:-msimd128>)
+  set(options ${lampion_kernel_options})
+  if(LAMPION_FOR_wasm32)
+    list(APPEND options -msimd128)
+  endif()
   set_source_files_properties(${kernels}/vector.c PROPERTIES COMPILE_OPTIONS "${options}")
 else()
   list(REMOVE_ITEM lampion_sources ${kernels}/vector.c)
 endif()
-if(LAMPION_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+if(LAMPION_SIMD AND LAMPION_FOR_x86_64)
   list(APPEND lampion_kernel_builds LMP_KERNELS_X86)
   set_source_files_properties(${kernels}/avx2.c PROPERTIES
     COMPILE_OPTIONS "${lampion_kernel_options};-mavx2;-mf16c")

@@ -58,6 +58,35 @@ quietly cmake -G Ninja -S "$WORK/inside" -B "$WORK/inside/build" -DCMAKE_BUILD_T
 quietly cmake --build "$WORK/inside/build"
 "$WORK/inside/build/first_light" >"$WORK/inside.txt"
 
+# the library alone asks for nothing of the program's
+quietly cmake --preset library -B "$WORK/alone" -DCMAKE_INSTALL_PREFIX="$WORK/alone/installed"
+! grep -qiE 'embree|pkg_config|cmocka' "$WORK/alone/CMakeCache.txt" || fail "the library alone looks for the program's libraries"
+[ -z "${LAMPION_LONG:-}" ] || {
+    quietly cmake --build "$WORK/alone"
+    quietly cmake --install "$WORK/alone"
+    quietly env PKG_CONFIG_PATH="$(dirname "$(find "$WORK/alone/installed" -name lampion.pc)")" \
+        sh -c 'cc "$1" $(pkg-config --cflags --libs lampion) -o "$2"' - "$WORK/first_light.c" "$WORK/alone/first_light"
+    "$WORK/alone/first_light" | cmp "$WORK/inside.txt" - || fail "the library alone gives another color"
+}
+
+# README's three lines of FetchContent, with this tree in the place of what they would fetch, by a compiler that
+# CMake takes for another processor's: the kernels follow the compiler
+code_blocks README.md cmake >"$WORK/fetch.cmake"
+[ "$(grep -c . "$WORK/fetch.cmake")" = 4 ] || fail "README.md has no three lines of FetchContent and the one that links"
+mkdir "$WORK/fetched"
+cat >"$WORK/fetched/CMakeLists.txt" <<CMAKE
+cmake_minimum_required(VERSION 3.25)
+project(consumer LANGUAGES C)
+add_executable(my_program ../first_light.c)
+$(cat "$WORK/fetch.cmake")
+CMAKE
+quietly cmake -G Ninja -S "$WORK/fetched" -B "$WORK/fetched/build" -DFETCHCONTENT_SOURCE_DIR_LAMPION="$SOURCE" \
+    -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=none-such -DCMAKE_BUILD_TYPE=Debug
+for define in LMP_KERNELS_VECTOR $([ "$(uname -m)" != x86_64 ] || echo LMP_KERNELS_X86); do
+    grep -q "$define" "$WORK/fetched/build/build.ninja" || fail "without $define, by the name of a processor"
+done
+grep -q cmocka "$WORK/fetched/build/CMakeCache.txt" && fail "a library within a project looks for what tests need"
+
 grep -Eq '[0-9]' "$WORK/inside.txt" || fail "the program in README.md prints nothing"
 for output in "$WORK"/*-package.txt "$WORK"/*-pkg-config.txt; do
     cmp "$WORK/inside.txt" "$output" || fail "$output differs"
