@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: MIT
+# ./dev keeps its build folders to itself: one that somebody configured without tests or program by hand is
+# configured anew, and said to be; one of its own is left alone. Presets for people have other folders.
+set -eu
+. tests/checks/common.sh
+
+mkdir -p "$WORK/bin" "$WORK/tree/build/release"
+cp dev "$WORK/tree"
+cat >"$WORK/bin/cmake" <<'CMAKE'
+#!/bin/sh
+echo "$*" >>"$LOG"
+CMAKE
+printf '#!/bin/sh\nprintf installed\n' >"$WORK/bin/dpkg-query"
+chmod +x "$WORK/bin/cmake" "$WORK/bin/dpkg-query"
+export LOG="$WORK/log"
+
+# built TESTS PROGRAM: what ./dev build asks of cmake where release was configured so.
+built() {
+    : >"$LOG"
+    : >"$WORK/tree/build/release/build.ninja"
+    printf 'LAMPION_TESTS:BOOL=%s\nLAMPION_PROGRAM:BOOL=%s\n' "$1" "$2" >"$WORK/tree/build/release/CMakeCache.txt"
+    PATH="$WORK/bin:$PATH" "$WORK/tree/dev" build >"$WORK/out" 2>"$WORK/err" || fail "./dev build: $(cat "$WORK/err")"
+}
+build='--build --preset release --target lampion_program'
+built ON ON
+[ "$(cat "$LOG")" = "$build" ] && [ ! -s "$WORK/err" ] || fail "its own folder is configured anew: $(cat "$LOG" "$WORK/err")"
+for wrong in 'OFF ON' 'ON OFF'; do
+    built $wrong
+    [ "$(cat "$LOG")" = "--fresh --preset release
+$build" ] || fail "a folder of $wrong is taken as it is: $(cat "$LOG")"
+    grep -q 'configuring it anew' "$WORK/err" || fail "nothing is said of it: $(cat "$WORK/err")"
+done
+! grep -h 'cmake --preset' README.md docs/*.md | grep -vE 'preset (library|install|web)\b' ||
+    fail "a document sends its readers into a folder of ./dev"
