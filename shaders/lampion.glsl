@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion.glsl - sphere lights through spherical harmonics, in one file to include as it is.
  *
- * GLSL 4.50, GLSL for Vulkan, and GLSL ES from 3.00 on (there, say `precision highp float;` first).
+ * GLSL 4.20 (3.30 by GL_ARB_shading_language_420pack), Vulkan's, ES 3.00 (set a float precision).
  * The same mathematics as the C library, to rounding; its headers hold the derivations.
  *
  * Define before including

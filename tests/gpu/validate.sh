@@ -112,6 +112,14 @@ for version in "450 core" "300 es" "310 es"; do
     window "$version" >"$WORK/window.frag"
     glslangValidator "$WORK/window.frag" >"$WORK/log" 2>&1 || fail "lanterns.frag: $(cat "$WORK/log")"
 done
+# the oldest of desktop's, and the one before it by an extension, without which lines do not go on
+pack='#extension GL_ARB_shading_language_420pack : require'
+sed '1s/.*/#version 420 core/' "$WORK/window.frag" >"$WORK/old.frag"
+glslangValidator "$WORK/old.frag" >"$WORK/log" 2>&1 || fail "GLSL 4.20: $(cat "$WORK/log")"
+sed "1s/.*/#version 330 core\n$pack/" "$WORK/window.frag" >"$WORK/old.frag"
+glslangValidator "$WORK/old.frag" >"$WORK/log" 2>&1 || fail "GLSL 3.30: $(cat "$WORK/log")"
+sed 1d "$WORK/window.frag" | sed '1s/^/#version 330 core\n/' >"$WORK/old.frag"
+! glslangValidator "$WORK/old.frag" >"$WORK/log" 2>&1 || fail "GLSL 3.30 needs no extension"
 # Names of one letter are the includer's: each letter in turn for what the macros read.
 letters=$(echo a b c d e f g h i j k l m n o p q r s t u v w x y z | sed 's/.*/& &/' | awk '{ for (i = 27; i <= 52; i++) $i = toupper($i); print }')
 shader "310 es" 3 1 | sed 's/^#define LMP_LIGHT_COUNT .*/uniform int user_count;\n#define LMP_LIGHT_COUNT user_count/' >"$WORK/named.comp"
