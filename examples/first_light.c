@@ -4,13 +4,23 @@
 #include <stdio.h>
 
 int main(void) {
-    const lmp_light lantern = { .position = { 0, 3, 0 }, .radius = 0.5f, .radiance = { 10, 8, 5 } };
+    const lmp_light lanterns[] = {
+        { .position = { 0, 3, 0 }, .radius = 0.5f, .radiance = { 10, 8, 5 } },
+        { .position = { 2, 1, 1 }, .radius = 0.1f, .radiance = { 60, 80, 120 } },
+    };
     const lmp_material clay = { .diffuse = { 0.8f, 0.4f, 0.3f },
                                 .specular = { 0.04f, 0.04f, 0.04f },
                                 .exponent = 30 };
-    const lmp_surface ground = { .normal = { 0, 1, 0 }, .view = { 0, 0.6f, 0.8f } };
-    const lmp_rgb color = lmp_shade(NULL, &clay, &ground, &lantern, 1);
-    printf("reflected radiance: %.3f %.3f %.3f\n", (double)color.r, (double)color.g,
-           (double)color.b);
+    const lmp_vec3 points[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } };
+    const lmp_vec3 up = { 0, 1, 0 }, view = { 0, 0.6f, 0.8f };
+    const lmp_surfaces ground = { .position = lmp_vec3_array_of(points),
+                                  .normal = lmp_vec3_array_same(&up), /* the same for all */
+                                  .view = lmp_vec3_array_same(&view),
+                                  .material = &clay };
+    lmp_rgb color[3];
+    lmp_shade_n(NULL, &ground, 3, lanterns, 2, 0, &color[0].r);
+    for (int i = 0; i < 3; i++)
+        printf("point %d reflects %.3f %.3f %.3f\n", i, (double)color[i].r, (double)color[i].g,
+               (double)color[i].b);
     return 0;
 }
