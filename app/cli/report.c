@@ -60,7 +60,7 @@ bool cli_fail_word(cli_error *error, const char *subject, const char *word,
     size_t length = 0;
     for (size_t i = 0; names[i] && length < sizeof known - 1; i++)
         length += (size_t)snprintf(known + length, sizeof known - length, "%s%s", i ? ", " : "",
-                                   names[i]);
+                                   names[i][0] ? names[i] : "\"\"");
     if (length >= sizeof known)
         memcpy(known + sizeof known - 4, "...", 4);
     const char *const nearest = cli_nearest(word, names);

@@ -267,7 +267,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           .kind = CLI_INT,
           .target = &a.pixels_max,
           .argument = "N",
-          .help = "refuse larger images, which take 80 bytes a pixel",
+          .help = "refuse larger images, which take 80 bytes per pixel",
           .minimum = 1,
           .maximum = IMAGE_PIXELS_MAX },
         { .name = NULL },

@@ -94,7 +94,7 @@ static void print_names(const char *what, const char *name, size_t size, size_t 
     enum { SHOWN = 12 };
     printf("%-10s %zu", what, count);
     for (size_t i = 0; i < count && i < SHOWN; i++)
-        printf("%s%s", i ? ", " : ": ", name + i * size);
+        printf("%s%s", i ? ", " : ": ", name[i * size] ? name + i * size : "\"\"");
     puts(count > SHOWN ? ", …" : "");
 }
 

@@ -124,7 +124,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         SCENE_LOAD_OPTION_ROWS(o->load),
         OVERRIDE_OPTION_ROW(a.materials),
         IMAGE_DISPLAY_OPTION_ROWS(a.exposure, a.exposure_given, a.stops, a.tone),
-        { "samples", 0, CLI_INT, &o->settings.samples, "N", "samples a pixel, when nothing moves",
+        { "samples", 0, CLI_INT, &o->settings.samples, "N", "samples per pixel, when nothing moves",
           1, VIEW_SAMPLES_MAX, NULL, NULL },
         { "animate", 0, CLI_TEXT, &o->animate, ANIMATION_ARGUMENT,
           "play how lights move: " ANIMATION_NAMES "; without it they wait for the space bar", 0, 0,

@@ -130,6 +130,13 @@ grep -qF "writing $WORK/turn_0002.exr … $WORK/turn_0003.exr (" "$WORK/err" || 
 "$PROGRAM" render builtin:ball $small --frames 1 -o "$WORK/turn_%d.exr" 2>"$WORK/err"
 [ -s "$WORK/turn_0.exr" ] && [ ! -s "$WORK/err" ] || fail "names that are given are told: $(cat "$WORK/err")"
 
+# a material without a name is written as two quotes
+own_scene "$WORK/plain.gltf"
+sed -i 's/"name": "floor", //' "$WORK/plain.gltf"
+"$PROGRAM" info "$WORK/plain.gltf" | grep -q '^materials  *[0-9]*: ""' || fail "a name that is empty goes unseen"
+"$PROGRAM" render "$WORK/plain.gltf" $small --material floor=ggx:0.3 -o "$WORK/plain.png" 2>&1 | grep -q 'is not one of ""' ||
+    fail "an empty name in a message goes unseen"
+
 # refusals: status, one line, nothing written
 refused() {
     status=$1
