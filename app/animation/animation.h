@@ -42,7 +42,7 @@ void animation_move_all(const animation *path, const scene *scene, double second
               " (without it, scene if the file moves its lights, else orbit)" },                   \
     {                                                                                              \
         .name = "fps", .kind = CLI_FLOAT, .target = &(rate), .argument = "RATE",                   \
-        .help = "frames a second", .minimum = 0.01, .maximum = 1000                                \
+        .help = "frames per second", .minimum = 0.01, .maximum = 1000                              \
     }
 
 #endif

@@ -184,7 +184,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { .name = "no-cache",
           .kind = CLI_FLAG,
           .target = &load.no_cache,
-          .help = "import the file anew" },
+          .help = "read the file itself, not its copy in the cache" },
         SCENE_LOAD_OPTION_ROWS(load),
         { 0 },
     };

@@ -229,7 +229,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "windowing filter of lobes truncated by --bands", 0, 0, method_window_names(), NULL },
         IMAGE_DISPLAY_OPTION_ROWS(a.exposure, a.exposure_given, a.stops, a.tone),
         { "threads", 0, CLI_INT, &a.settings.threads, "N",
-          "0 means all cores; the result is the same", 0, 1024, NULL, NULL },
+          "threads to render by; 0 means all cores; the image is the same", 0, 1024, NULL, NULL },
         SCENE_LIGHTS_OPTION_ROWS(a.lights),
         ENVIRONMENT_OPTION_ROWS(a.environment),
         SCENE_LOAD_OPTION_ROWS(a.load),

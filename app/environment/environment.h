@@ -29,13 +29,13 @@ typedef struct environment_options {
           .kind = CLI_FLOAT,                                                                       \
           .target = &(variable).rotation,                                                          \
           .argument = "DEGREES",                                                                   \
-          .help = "rotates it counter-clockwise, as seen from above",                              \
+          .help = "rotate the environment counter-clockwise, as seen from above",                  \
           .minimum = -360,                                                                         \
           .maximum = 360 },                                                                        \
     {                                                                                              \
         .name = "environment-strength", .kind = CLI_FLOAT, .target = &(variable).strength,         \
-        .argument = "FACTOR", .help = "of its radiance", .minimum = 0,                             \
-        .maximum = ENVIRONMENT_STRENGTH_MAX                                                        \
+        .argument = "FACTOR", .help = "multiply the radiance of the environment by this",          \
+        .minimum = 0, .maximum = ENVIRONMENT_STRENGTH_MAX                                          \
     }
 
 /* Both images are latitude-longitude, as lmp_latlong has them. Zero: there is none. */

@@ -123,7 +123,7 @@ const char *method_help(void) {
     static char text[768];
     size_t used = (size_t)snprintf(text, sizeof text,
                                    "how to shade; auto is zonal to %d bands, then preintegrated, "
-                                   "and in render field where so many lights cost half by it",
+                                   "and in render field where it halves the cost of so many lights",
                                    method_table[METHOD_ZONAL].bands_max[DEVICE_GPU]);
     for (int m = 0; m < METHODS; m++) {
         const method_row *row = &method_table[m];

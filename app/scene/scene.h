@@ -201,13 +201,14 @@ void scene_free(scene *scene);
       .kind = CLI_CHOICE,                                                                          \
       .target = &(variable).up,                                                                    \
       .argument = "AXIS",                                                                          \
-      .help = "of the scene file that points up; the scene is rotated so that y does",             \
+      .help = "the axis of the scene file that points up; the scene is rotated to make it y",      \
       .choices = scene_up_names },                                                                 \
         { .name = "variant",                                                                       \
           .kind = CLI_TEXT,                                                                        \
           .target = &(variable).variant,                                                           \
           .argument = "NAME",                                                                      \
-          .help = "of the materials of a glTF, by name or number from 0 (info lists them)" },      \
+          .help = "a variant of the materials of a glTF, by name or number from 0 (info lists "    \
+                  "them)" },                                                                       \
     {                                                                                              \
         .name = "strict", .kind = CLI_FLAG, .target = &(variable).strict,                          \
         .help = "refuse a scene of which something would be left out"                              \
@@ -263,7 +264,7 @@ typedef struct scene_lights_options {
           .kind = CLI_INT,                                                                         \
           .target = &(variable).random_count,                                                      \
           .argument = "N",                                                                         \
-          .help = "seeded random lights, instead of the scene's own",                              \
+          .help = "replace the scene's own lights by N random ones",                               \
           .minimum = 0,                                                                            \
           .maximum = SCENE_LIGHTS_MAX },                                                           \
         { .name = "seed",                                                                          \
@@ -282,7 +283,8 @@ typedef struct scene_lights_options {
           .kind = CLI_FLOAT,                                                                       \
           .target = &(variable).sun_angle,                                                         \
           .argument = "DEGREES",                                                                   \
-          .help = "make its directional lights suns of this angular radius (ours has 0.27)",       \
+          .help = "make the scene's directional lights suns of this angular radius (the Sun has "  \
+                  "0.27)",                                                                         \
           .minimum = 0,                                                                            \
           .maximum = 89 },                                                                         \
         { .name = "hide-lights",                                                                   \

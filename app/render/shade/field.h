@@ -36,7 +36,8 @@ typedef struct shade_field_options {
     {                                                                                              \
         .name = "field-error", .kind = CLI_FLOAT, .target = &(variable).error,                     \
         .argument = "ERROR",                                                                       \
-        .help = "of the method field, in parts of a light; less sums more lights exactly",         \
+        .help = "error of the method field, in parts of a light; a smaller one sums more lights "  \
+                "exactly",                                                                         \
         .minimum = 1e-4, .maximum = 1                                                              \
     }
 
