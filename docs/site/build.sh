@@ -98,9 +98,14 @@ find "$out" -mindepth 1 -maxdepth 1 ! -name demo -exec rm -rf {} + 2>/dev/null |
 mkdir -p "$out"
 make_navigation >"$work/navigation"
 export SEARCH_INDEX="$work/sections"
-for source in $home $API_SOURCES CONTRIBUTING.md docs/*.md; do
+set -- $home $API_SOURCES CONTRIBUTING.md docs/*.md
+number=0
+for source in "$@"; do
+    number=$((number + 1))
+    [ ! -t 2 ] || printf '\r%d of %d pages' $number $# >&2
     make_page "$source"
 done
+[ ! -t 2 ] || printf '\r\033[K' >&2
 unset SEARCH_INDEX # what changed is nothing to search in
 make_page CHANGELOG.md
 copy_linked
