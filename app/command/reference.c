@@ -204,7 +204,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "the image: .exr (linear, the standard error as layer \"stderr\") or .png", 0, 0, NULL,
           NULL },
         { "size", 's', CLI_SIZE, a.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
-        SCENE_CAMERA_OPTION_ROWS(a.camera),
+        SCENE_CAMERA_OPTION_ROWS(a.camera, a.load),
         OVERRIDE_OPTION_ROW(a.materials),
         { "spp", 0, CLI_INT, &a.samples, "N", "light samples per pixel; with --error the most", 1,
           REFERENCE_SAMPLES_MAX, NULL, NULL },

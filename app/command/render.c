@@ -352,7 +352,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           method_window_names(), NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         ENVIRONMENT_OPTION_ROWS(o.environment),
-        SCENE_CAMERA_OPTION_ROWS(o.camera),
+        SCENE_CAMERA_OPTION_ROWS(o.camera, o.load),
         SCENE_LOAD_OPTION_ROWS(o.load),
         OVERRIDE_OPTION_ROW(o.materials),
         IMAGE_DISPLAY_OPTION_ROWS(o.exposure, o.exposure_given, o.stops, o.tone),

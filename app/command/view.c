@@ -121,7 +121,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         SHADOW_SWITCH_ROWS(a.shadow),
         SCENE_LIGHTS_OPTION_ROWS(o->lights),
         ENVIRONMENT_OPTION_ROWS(o->environment),
-        SCENE_CAMERA_OPTION_ROWS(o->camera),
+        SCENE_CAMERA_OPTION_ROWS(o->camera, o->load),
         SCENE_LOAD_OPTION_ROWS(o->load),
         OVERRIDE_OPTION_ROW(a.materials),
         IMAGE_DISPLAY_OPTION_ROWS(a.exposure, a.exposure_given, a.stops, a.tone),

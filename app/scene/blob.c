@@ -365,8 +365,12 @@ static void measure(scene *s) {
 bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_error *error) {
     const blob_header *header = block;
     scene_light *lights = calloc(SCENE_LIGHTS_MAX, sizeof *lights);
-    if (!lights)
+    scene_frame *frame = calloc(1, sizeof *frame);
+    if (!lights || !frame) {
+        free(lights);
+        free(frame);
         return cli_fail(error, subject, "does not fit into memory");
+    }
     memcpy(lights, blob_items(block, BLOB_LIGHTS),
            header->sections[BLOB_LIGHTS].count * sizeof *lights);
     blob_geometry(block, s);
@@ -392,6 +396,7 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->offset_count = header->sections[BLOB_OFFSETS].count;
     s->left_out_count = header->sections[BLOB_LEFT_OUT].count;
     s->lights = lights;
+    s->frame = frame;
     s->light_count = header->sections[BLOB_LIGHTS].count;
     s->block = block;
     s->block_size = size;

@@ -30,9 +30,22 @@ static void keep_upright(scene_camera *camera) {
     memcpy(camera->up, (const float[3]) { 0, 0, -1 }, sizeof camera->up);
 }
 
+/* Which framing was found, and how to have the other. */
+static void tell_framing(const scene *world, const scene_camera_options *o) {
+    if (world->camera_count > 0 || o->eye_given || !world->frame ||
+        world->frame->wanted != SCENE_FRAMING_AUTO)
+        return;
+    cli_note(world->name, scene_is_inside(world)
+                              ? "no camera in it, seen from inside (--framing outside steps out)"
+                              : "no camera in it, seen from outside (--framing inside steps in)");
+}
+
 bool scene_place_camera(const scene *world, const scene_camera_options *o, const int size[2],
                         scene_camera *camera, cli_error *error) {
     *camera = scene_default_camera(world, (float)size[0] / (float)size[1]);
+    if (o->name && world->frame && world->frame->wanted != SCENE_FRAMING_AUTO)
+        return cli_fail(error, "camera", "--camera and --framing exclude each other");
+    tell_framing(world, o);
     if (o->name && !find_camera(world, o->name, camera, error))
         return false;
     if (o->eye_given) { /* from elsewhere, the file's planes would cut what they never should */

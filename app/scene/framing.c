@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The camera of a scene that brings none: before a model, inside a building. */
 #include "app/scene/instance.h"
+#include "app/scene/interior.h"
 #include "app/scene/space.h"
 #include "app/scene/vector.h"
 
@@ -10,37 +11,43 @@
 #define INSIDE_HEIGHT 0.4f    /* of a room's height */
 #define FRAMING_PART  0.9f    /* of the image that an automatic camera fills at most */
 
-/* Looks to the middle of a building, from where there is most room. */
-static scene_camera camera_inside(lmp_vec3 middle, const space_room *room) {
+/* Looks to the middle of a room, from where there is most of it. Where no wall says how far one may
+ * go, it looks ahead from the middle. */
+static scene_camera camera_inside(const scene *s, lmp_vec3 middle) {
     scene_camera camera = { .name = "inside", .up = { 0.0f, 1.0f, 0.0f }, .fov = INSIDE_FOV };
+    const space_room room = space_room_at(s, middle);
+    const lmp_vec3 size = vec_sub(vec_load(s->maximum), vec_load(s->minimum));
     float most = 0.0f;
     lmp_vec3 way = vec(0.0f, 0.0f, 1.0f);
     for (int axis = 0; axis < 3; axis += 2)
         for (int sign = -1; sign <= 1; sign += 2) {
-            const float free = sign < 0 ? room->back[axis] : room->ahead[axis];
+            const float free = sign < 0 ? room.back[axis] : room.ahead[axis];
             if (isfinite(free) && free > most) {
                 most = free;
                 way = axis == 0 ? vec((float)sign, 0.0f, 0.0f) : vec(0.0f, 0.0f, (float)sign);
             }
         }
-    if (isfinite(room->back[1]) && isfinite(room->ahead[1]))
-        middle.y += INSIDE_HEIGHT * (room->back[1] + room->ahead[1]) - room->back[1];
-    vec_store(vec_add(middle, vec_scale(way, INSIDE_BACK * most)), camera.eye);
+    if (isfinite(room.back[1]) && isfinite(room.ahead[1]))
+        middle.y += INSIDE_HEIGHT * (room.back[1] + room.ahead[1]) - room.back[1];
+    const lmp_vec3 eye = vec_add(middle, vec_scale(way, INSIDE_BACK * most));
+    if (!(most > 0.0f))
+        middle.z -= fmaxf(vec_length(size), 1e-18f);
+    vec_store(eye, camera.eye);
     vec_store(middle, camera.target);
     return camera;
 }
 
 /* A model is seen along -from, by a pyramid of these slopes. Its planes touch the model where
  * x + slope z and -x + slope z are largest, which says where its tip is between two of them. */
-typedef struct framing {
+typedef struct pyramid {
     lmp_vec3 center, right, up, from;
     float slope[2];    /* across, along up */
     float touching[4]; /* right, left, top, bottom */
     float radius;      /* of the model around its center */
-} framing;
+} pyramid;
 
 /* How far a point reaches past the planes, and away from the center. */
-static void reach_of(const framing *f, lmp_vec3 point, float sides[4], float *radius) {
+static void reach_of(const pyramid *f, lmp_vec3 point, float sides[4], float *radius) {
     const lmp_vec3 p = vec_sub(point, f->center);
     const float x = vec_dot(f->right, p), y = vec_dot(f->up, p), z = vec_dot(f->from, p);
     sides[0] = x + f->slope[0] * z;
@@ -51,7 +58,7 @@ static void reach_of(const framing *f, lmp_vec3 point, float sides[4], float *ra
 }
 
 /* Whether something in the instance's box may reach farther than what has been touched. */
-static bool may_touch(const scene *s, size_t instance, const framing *f) {
+static bool may_touch(const scene *s, size_t instance, const pyramid *f) {
     float box[2][3], sides[4], radius;
     scene_instance_box(s, instance, box[0], box[1]);
     for (int i = 0; i < 8; i++) {
@@ -66,7 +73,7 @@ static bool may_touch(const scene *s, size_t instance, const framing *f) {
     return false;
 }
 
-static void touch(const scene *s, framing *f) {
+static void touch(const scene *s, pyramid *f) {
     for (int i = 0; i < 4; i++)
         f->touching[i] = -INFINITY;
     for (size_t i = 0; i < s->instance_count; i++) {
@@ -85,13 +92,13 @@ static void touch(const scene *s, framing *f) {
     }
 }
 
-static float half_width(const framing *f, int axis) {
+static float half_width(const pyramid *f, int axis) {
     return 0.5f * (f->touching[2 * axis] + f->touching[2 * axis + 1]);
 }
 
 /* From how far away every triangle fits into the image; but the camera never stands inside. Where
  * there is room to spare, planes less steep touch from there. */
-static float fit(const scene *s, framing *f) {
+static float fit(const scene *s, pyramid *f) {
     enum { PASSES = 4 };
     touch(s, f);
     const float distance =
@@ -105,10 +112,16 @@ static float fit(const scene *s, framing *f) {
 }
 
 /* The model in the middle of the image, as near as fits. */
-static scene_camera camera_before(const scene *s, lmp_vec3 center, float aspect) {
+static scene_camera camera_before(const scene *s, int quarter, float aspect) {
+    static const float from[4][2] = {
+        { 0.45f, 1.0f }, { 1.0f, -0.45f }, { -0.45f, -1.0f }, { -1.0f, 0.45f }
+    };
+    const lmp_vec3 center =
+        vec_add(vec_scale(vec_load(s->minimum), 0.5f), vec_scale(vec_load(s->maximum), 0.5f));
     const float slope = FRAMING_PART * (float)tan(0.5 * (double)DEFAULT_FOV);
-    framing f = { .center = center,
-                  .from = vec_normalize(vec(0.45f, 0.35f, 1.0f), vec(0.0f, 0.0f, 1.0f)),
+    pyramid f = { .center = center,
+                  .from = vec_normalize(vec(from[quarter][0], 0.35f, from[quarter][1]),
+                                        vec(0.0f, 0.0f, 1.0f)),
                   .slope = { slope * aspect, slope },
                   .radius = 1e-18f };
     f.right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), f.from), f.from);
@@ -137,16 +150,69 @@ static void widen(scene_camera *camera, float aspect) {
         (float)(2.0 * atan(tan(0.5 * (double)camera->fov) * (double)(camera->aspect / aspect)));
 }
 
+/* --- which ------------------------------------------------------------------------------------ */
+
+const char *const scene_framing_names[] = { "auto", "outside", "inside", NULL };
+
+#define FRONTS_POOR   0.5f  /* of what is seen is fronts: other sides are tried */
+#define FRONTS_BETTER 0.25f /* so much more is worth to go around */
+
+/* Boxes are looked into from where they are open. */
+static int best_quarter(const scene_interior *found) {
+    int best = 0;
+    if (found->fronts_before[0] < FRONTS_POOR)
+        for (int i = 1; i < 4; i++)
+            if (found->fronts_before[i] > found->fronts_before[best] &&
+                found->fronts_before[i] > found->fronts_before[0] + FRONTS_BETTER)
+                best = i;
+    return best;
+}
+
+static scene_frame find_frame(const scene *s, scene_framing wanted) {
+    scene_frame frame = { .wanted = wanted, .framing = wanted };
+    scene_grid *grid = s->index_count > 0 ? scene_grid_create(s) : NULL;
+    if (frame.framing == SCENE_FRAMING_AUTO)
+        frame.framing = SCENE_FRAMING_OUTSIDE;
+    if (!grid)
+        return frame;
+    const scene_interior found = scene_interior_find(grid);
+    frame.middle = found.middle;
+    frame.quarter = best_quarter(&found);
+    if (wanted == SCENE_FRAMING_AUTO &&
+        (s->camera_count > 0 ? scene_interior_closes(grid, vec_load(s->cameras->eye))
+                             : found.inside))
+        frame.framing = SCENE_FRAMING_INSIDE;
+    scene_grid_destroy(grid);
+    return frame;
+}
+
+scene_frame scene_frame_of(const scene *s) {
+    if (s->frame && s->frame->framing != SCENE_FRAMING_AUTO)
+        return *s->frame;
+    const scene_frame found = find_frame(s, s->frame ? s->frame->wanted : SCENE_FRAMING_AUTO);
+    if (s->frame)
+        *s->frame = found;
+    return found;
+}
+
+bool scene_is_inside(const scene *s) {
+    return scene_frame_of(s).framing == SCENE_FRAMING_INSIDE;
+}
+
+scene_camera scene_framed_camera(const scene *s, scene_framing framing, float aspect) {
+    const scene_frame frame = scene_frame_of(s);
+    if (framing == SCENE_FRAMING_AUTO)
+        framing = frame.framing;
+    return framing == SCENE_FRAMING_INSIDE
+               ? camera_inside(s, frame.middle)
+               : camera_before(s, frame.quarter, aspect > 0.0f ? aspect : 1.0f);
+}
+
 scene_camera scene_default_camera(const scene *s, float aspect) {
-    if (s->camera_count > 0) {
+    if (s->camera_count > 0 && !(s->frame && s->frame->wanted != SCENE_FRAMING_AUTO)) {
         scene_camera first = s->cameras[0];
         widen(&first, aspect);
         return first;
     }
-    const lmp_vec3 lo = vec_load(s->minimum), hi = vec_load(s->maximum);
-    const lmp_vec3 center = vec_add(vec_scale(lo, 0.5f), vec_scale(hi, 0.5f));
-    space_room room;
-    if (space_is_building(s, center, &room))
-        return camera_inside(center, &room);
-    return camera_before(s, center, aspect > 0.0f ? aspect : 1.0f);
+    return scene_framed_camera(s, SCENE_FRAMING_AUTO, aspect);
 }

@@ -51,9 +51,7 @@ typedef struct random_box {
 } random_box;
 
 static random_box box_of(const scene *s) {
-    const lmp_vec3 lo = vec_load(s->minimum), hi = vec_load(s->maximum);
-    const bool building =
-        space_is_building(s, vec_scale(vec_add(lo, hi), 0.5f), &(space_room) { 0 });
+    const bool building = scene_is_inside(s);
     const float around = RANDOM_AROUND * scene_size(s);
     random_box box;
     for (int k = 0; k < 3; k++) {

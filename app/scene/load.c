@@ -65,17 +65,25 @@ bool scene_is_file(const char *name) {
     return strncmp(name, BUILTIN_PREFIX, strlen(BUILTIN_PREFIX)) != 0;
 }
 
-bool scene_load(const char *name, const scene_options *options, scene *s, cli_error *error) {
-    const scene_options chosen = options ? *options : (scene_options) { 0 };
-    memset(s, 0, sizeof *s);
+static bool load(const char *name, const scene_options *chosen, scene *s, cli_error *error) {
     if (!scene_is_file(name))
-        return chosen.variant ? cli_fail_member(error, name, "variant", chosen.variant, NULL, 0, 0)
-                              : load_builtin(name, chosen.up, s, error);
-    if (!import_scene(name, &chosen, s, error))
+        return chosen->variant
+                   ? cli_fail_member(error, name, "variant", chosen->variant, NULL, 0, 0)
+                   : load_builtin(name, chosen->up, s, error);
+    if (!import_scene(name, chosen, s, error))
         return hint_builtin(name, error);
-    if ((chosen.no_texels || scene_decode_images(s, error)) &&
-        tell_left_out(s, chosen.strict, error))
+    if ((chosen->no_texels || scene_decode_images(s, error)) &&
+        tell_left_out(s, chosen->strict, error))
         return true;
     scene_free(s);
     return false;
+}
+
+bool scene_load(const char *name, const scene_options *options, scene *s, cli_error *error) {
+    const scene_options chosen = options ? *options : (scene_options) { 0 };
+    memset(s, 0, sizeof *s);
+    if (!load(name, &chosen, s, error))
+        return false;
+    s->frame->wanted = (scene_framing)chosen.framing;
+    return true;
 }

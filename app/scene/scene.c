@@ -56,5 +56,6 @@ void scene_free(scene *s) {
     free(s->own_materials);
     free(s->own_left_out);
     free(s->lights);
+    free(s->frame);
     memset(s, 0, sizeof *s);
 }

@@ -135,6 +135,21 @@ typedef struct scene_left_out {
     uint32_t count;
 } scene_left_out;
 
+/* From where a scene is seen that brings no camera. */
+typedef enum scene_framing {
+    SCENE_FRAMING_AUTO, /* inside of a room, in doubt outside */
+    SCENE_FRAMING_OUTSIDE,
+    SCENE_FRAMING_INSIDE
+} scene_framing;
+extern const char *const scene_framing_names[];
+
+/* How it is framed (app/scene/framing.c). */
+typedef struct scene_frame {
+    scene_framing wanted, framing; /* by the options; found: AUTO until then */
+    lmp_vec3 middle;               /* of the room, where the camera stands inside */
+    int quarter;                   /* of a circle that a camera outside goes around */
+} scene_frame;
+
 /* Views into one block of memory; indices and ranges are validated, never out of bounds. Immutable
  * after loading but for the lights. All positions are relative to the origin (app/scene/world.h),
  * whose axes are the world's. */
@@ -161,6 +176,7 @@ typedef struct scene {
     bool lights_chosen; /* by the command line: none of them is then a wish for darkness */
     float minimum[3], maximum[3]; /* bounds of all instances; without one: a unit box */
     double area;                  /* of their triangles */
+    scene_frame *frame;           /* kept once it has been found; NULL: it is found anew */
     double origin[3];             /* in the world; 0 unless the scene lies far from there */
     void *block;                  /* owned by the scene */
     size_t block_size;
@@ -178,6 +194,7 @@ extern const char *const scene_up_names[];
 
 typedef struct scene_options {
     int up;              /* the scene is rotated so that this is y */
+    int framing;         /* scene_framing */
     const char *variant; /* of materials, by name or number from 0; NULL: the file's own */
     bool no_cache;       /* neither read nor write the cache */
     bool strict;         /* a file of which something is left out is an error */
@@ -302,9 +319,14 @@ bool scene_apply_lights(scene *scene, const scene_lights_options *options, cli_e
 /* The height of what an image shows at a distance along the view. */
 float scene_camera_height(const scene_camera *camera, float distance);
 
-/* The scene's first camera, or one that frames its bounds. In an image narrower than the camera's
- * aspect it sees more, so that nothing is cut off at the sides. */
+/* How the scene is framed: never AUTO. With cameras in the file, AUTO is where the first stands. */
+scene_frame scene_frame_of(const scene *scene);
+bool scene_is_inside(const scene *scene);
+
+/* The scene's first camera, or where there is none, or framing is chosen, one that frames it. In an
+ * image narrower than the camera's aspect it sees more, so that nothing is cut off at the sides. */
 scene_camera scene_default_camera(const scene *scene, float aspect);
+scene_camera scene_framed_camera(const scene *scene, scene_framing framing, float aspect);
 
 /* The camera a command line asks for. Zero is the default: scene_default_camera. */
 typedef struct scene_camera_options {
@@ -314,13 +336,21 @@ typedef struct scene_camera_options {
     bool eye_given, target_given, fov_given, height_given;
 } scene_camera_options;
 
-/* The rows of a command's option table that fill a scene_camera_options variable. */
-#define SCENE_CAMERA_OPTION_ROWS(variable)                                                         \
-    { .name = "camera",                                                                            \
-      .kind = CLI_TEXT,                                                                            \
-      .target = &(variable).name,                                                                  \
-      .argument = "NAME",                                                                          \
-      .help = "a camera of the scene, by name or number from 0" },                                 \
+/* The rows of a command's option table that fill a scene_camera_options variable, and say in a
+ * scene_options variable how the scene is framed. */
+#define SCENE_CAMERA_OPTION_ROWS(variable, load)                                                   \
+    { .name = "framing",                                                                           \
+      .kind = CLI_CHOICE,                                                                          \
+      .target = &(load).framing,                                                                   \
+      .argument = "FROM",                                                                          \
+      .help = "where the camera stands by itself: outside, inside, or auto: where the file's "     \
+              "camera is, else inside of what is a room, in doubt outside",                        \
+      .choices = scene_framing_names },                                                            \
+        { .name = "camera",                                                                        \
+          .kind = CLI_TEXT,                                                                        \
+          .target = &(variable).name,                                                              \
+          .argument = "NAME",                                                                      \
+          .help = "a camera of the scene, by name or number from 0" },                             \
         { .name = "eye",                                                                           \
           .kind = CLI_POSITION,                                                                    \
           .target = (variable).eye,                                                                \

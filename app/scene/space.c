@@ -147,8 +147,6 @@ void space_fit(const scene *world, space_ball *balls, size_t count) {
 
 /* --- rooms ------------------------------------------------------------------------------------ */
 
-#define BUILDING_WALLS 4 /* of six directions, a floor among them: rings have none */
-
 typedef struct wall {
     float distance;
     bool front;
@@ -175,7 +173,7 @@ static bool may_be_wall(const float lo[3], const float hi[3], lmp_vec3 point) {
     return within >= 2;
 }
 
-bool space_is_building(const scene *world, lmp_vec3 middle, space_room *room) {
+space_room space_room_at(const scene *world, lmp_vec3 middle) {
     wall next[6];
     for (int i = 0; i < 6; i++)
         next[i] = (wall) { INFINITY, false };
@@ -188,11 +186,8 @@ bool space_is_building(const scene *world, lmp_vec3 middle, space_room *room) {
             find_walls(&t, middle, next);
         }
     }
-    int walls = 0;
-    for (int i = 0; i < 6; i++) {
-        const bool is_wall = isfinite(next[i].distance) && next[i].front;
-        (i % 2 ? room->ahead : room->back)[i / 2] = is_wall ? next[i].distance : INFINITY;
-        walls += is_wall;
-    }
-    return walls >= BUILDING_WALLS && isfinite(room->back[1]);
+    space_room room;
+    for (int i = 0; i < 6; i++)
+        (i % 2 ? room.ahead : room.back)[i / 2] = next[i].front ? next[i].distance : INFINITY;
+    return room;
 }

@@ -24,8 +24,6 @@ typedef struct space_room {
     float back[3], ahead[3]; /* distances; INFINITY: nothing, or a back */
 } space_room;
 
-/* Whether a scene is one that people are inside of: from its middle, fronts are seen in four of six
- * directions, one of them below. */
-bool space_is_building(const scene *world, lmp_vec3 middle, space_room *room);
+space_room space_room_at(const scene *world, lmp_vec3 middle);
 
 #endif

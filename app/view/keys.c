@@ -172,9 +172,13 @@ static void toggle_overlay(view_state *s, int unused) {
     s->overlay = !s->overlay;
 }
 
-static void toggle_walking(view_state *s, int unused) {
+/* As --framing inside or outside does. */
+static void toggle_framing(view_state *s, int unused) {
     (void)unused;
     s->walking = !s->walking;
+    s->now.camera =
+        scene_framed_camera(s->world, s->walking ? SCENE_FRAMING_INSIDE : SCENE_FRAMING_OUTSIDE,
+                            (float)s->now.width / (float)s->now.height);
     view_say(s, s->walking ? "Inside: the left button looks around"
                            : "Outside: the left button goes around");
 }
@@ -205,7 +209,7 @@ const view_key view_keys[] = {
     { NULL, "right drag", "look around", NULL, 0 },
     { NULL, "wheel", "nearer, farther", NULL, 0 },
     { NULL, "W A S D  Q E", "fly (Shift: faster)", NULL, 0 },
-    { "F2", "F2", "inside, outside", toggle_walking, 0 },
+    { "F2", "F2", "see it from inside, from outside", toggle_framing, 0 },
     { "f", "F", "frame everything", frame_all, 0 },
     { "F", "Shift F", "frame the selected light", view_frame_light, 0 },
     { "c", "C", "next camera of the scene", next_camera, 1 },

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/state.h"
 
-#include "app/scene/space.h"
-#include "app/scene/vector.h"
-
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -71,12 +68,6 @@ static void take_lights(view_state *s) {
     view_history_keep(&s->history, &s->now, s->numbers);
 }
 
-static bool is_building(const scene *world) {
-    const lmp_vec3 lo = vec_load(world->minimum), hi = vec_load(world->maximum);
-    return space_is_building(world, vec_scale(vec_add(lo, hi), 0.5f),
-                             &(space_room) { .back = { 0 } });
-}
-
 bool view_state_open(const scene *world, const view_settings *settings, const char *animate,
                      view_state *s, cli_error *error) {
     memset(s, 0, sizeof *s);
@@ -85,7 +76,7 @@ bool view_state_open(const scene *world, const view_settings *settings, const ch
     s->overlay = true;
     s->playing = animate != NULL;
     s->x = s->y = -1;
-    s->walking = is_building(world);
+    s->walking = scene_is_inside(world);
     take_lights(s);
     if (open_paths(s, animate, error))
         return true;
@@ -109,7 +100,7 @@ static void begin_other(view_state *s) {
     s->camera = 0;
     s->seconds = 0;
     s->panel = (view_panel) { .kind = VIEW_PANEL_CLOSED };
-    s->walking = is_building(s->world);
+    s->walking = scene_is_inside(s->world);
     s->wishes.expose = true;
     take_lights(s);
 }
