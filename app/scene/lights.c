@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/builtin.h"
+#include "app/scene/grid.h"
 #include "app/scene/random.h"
 #include "app/scene/scene.h"
 #include "app/scene/space.h"
@@ -18,6 +19,11 @@
 #define RANDOM_SEEN          0.07f /* radius over distance from the camera, at most */
 #define RANDOM_ATTEMPTS      64    /* to find room for a light */
 #define RANDOM_WARM_FRACTION 0.5f
+#define RANDOM_ASPECT        1.5f
+#define RANDOM_LOOKS         512
+#define RANDOM_SEEN_LEAST                                                                          \
+    0.05f /* of where lights may be, or they come to where the camera looks                        \
+           */
 
 void scene_clear_lights(scene *s) {
     s->light_count = 0;
@@ -48,19 +54,8 @@ lmp_rgb builtin_light_color(uint64_t *random, float warm_fraction) {
 /* Where random lights may be: inside a building, else around and above what stands there. */
 typedef struct random_box {
     float lo[3], hi[3];
+    float size; /* by which lights are sized */
 } random_box;
-
-static random_box box_of(const scene *s) {
-    const bool building = scene_is_inside(s);
-    const float around = RANDOM_AROUND * scene_size(s);
-    random_box box;
-    for (int k = 0; k < 3; k++) {
-        const float extent = s->maximum[k] - s->minimum[k];
-        box.lo[k] = s->minimum[k] + (building ? RANDOM_MARGIN * extent : k == 1 ? 0.0f : -around);
-        box.hi[k] = s->maximum[k] + (building ? -RANDOM_MARGIN * extent : around);
-    }
-    return box;
-}
 
 static lmp_vec3 position_in(const random_box *box, uint64_t *random) {
     float position[3];
@@ -69,12 +64,92 @@ static lmp_vec3 position_in(const random_box *box, uint64_t *random) {
     return vec_load(position);
 }
 
+/* From the camera's eye through a point of its image, -1 … 1 each way; 1 long along the view. */
+static lmp_vec3 way_through(const scene_camera *camera, float x, float y) {
+    const lmp_vec3 forward = vec_normalize(vec_sub(vec_load(camera->target), vec_load(camera->eye)),
+                                           vec(0.0f, 0.0f, -1.0f)),
+                   right =
+                       vec_normalize(vec_cross(forward, vec_load(camera->up)), vec_across(forward)),
+                   up = vec_cross(right, forward);
+    const float slope = (float)tan(0.5 * (double)camera->fov);
+    return vec_add(forward,
+                   vec_add(vec_scale(right, RANDOM_ASPECT * slope * x), vec_scale(up, slope * y)));
+}
+
+/* Whether nothing is before the point, and it is in the image. */
+static bool is_seen(const scene_grid *grid, const scene_camera *camera, lmp_vec3 point) {
+    const lmp_vec3 eye = vec_load(camera->eye), way = vec_sub(point, eye),
+                   corner = way_through(camera, 1.0f, 1.0f),
+                   forward = way_through(camera, 0.0f, 0.0f);
+    const float depth = vec_dot(way, forward), across = vec_dot(way, way) - depth * depth,
+                widest = vec_dot(corner, corner) - 1.0f;
+    float distance;
+    if (!(depth > 0.0f && across < widest * depth * depth))
+        return false;
+    return scene_grid_look(grid, eye, way, &distance) == GRID_NOTHING || distance >= 1.0f;
+}
+
+/* Within the box, what the camera sees from near its eye to where its view ends. */
+static random_box box_seen(const scene_grid *grid, const scene_camera *camera,
+                           const random_box *box, uint64_t random) {
+    const lmp_vec3 eye = vec_load(camera->eye);
+    random_box seen = { .lo = { INFINITY, INFINITY, INFINITY },
+                        .hi = { -INFINITY, -INFINITY, -INFINITY } };
+    for (int i = 0; i < RANDOM_LOOKS; i++) {
+        const float x = random_between(&random, -0.8f, 0.8f),
+                    y = random_between(&random, -0.5f, 0.8f);
+        const lmp_vec3 way = way_through(camera, x, y);
+        float distance;
+        if (scene_grid_look(grid, eye, way, &distance) == GRID_NOTHING)
+            continue;
+        float at[3];
+        vec_store(vec_add(eye, vec_scale(way, random_between(&random, 0.3f, 0.8f) * distance)), at);
+        for (int k = 0; k < 3; k++) {
+            seen.lo[k] = fmaxf(fminf(seen.lo[k], at[k]), box->lo[k]);
+            seen.hi[k] = fminf(fmaxf(seen.hi[k], at[k]), box->hi[k]);
+        }
+    }
+    seen.size = vec_length(vec_sub(vec_load(seen.hi), vec_load(seen.lo)));
+    return seen;
+}
+
+/* Of a large scene the camera may see a corner: lights are then where it looks. */
+static void see_box(const scene *s, random_box *box) {
+    const scene_camera camera = scene_default_camera(s, RANDOM_ASPECT);
+    scene_grid *grid = camera.height > 0.0f ? NULL : scene_grid_create(s);
+    int seen = 0;
+    uint64_t random = 1;
+    if (!grid)
+        return;
+    for (int i = 0; i < RANDOM_LOOKS; i++)
+        seen += is_seen(grid, &camera, position_in(box, &random));
+    if ((float)seen < RANDOM_SEEN_LEAST * RANDOM_LOOKS) {
+        const random_box view = box_seen(grid, &camera, box, random);
+        if (view.lo[0] < view.hi[0] && view.lo[1] < view.hi[1] && view.lo[2] < view.hi[2])
+            *box = view;
+    }
+    scene_grid_destroy(grid);
+}
+
+static random_box box_of(const scene *s) {
+    const bool building = scene_is_inside(s);
+    const float around = RANDOM_AROUND * scene_size(s);
+    random_box box = { .size = scene_size(s) };
+    for (int k = 0; k < 3; k++) {
+        const float extent = s->maximum[k] - s->minimum[k];
+        box.lo[k] = s->minimum[k] + (building ? RANDOM_MARGIN * extent : k == 1 ? 0.0f : -around);
+        box.hi[k] = s->maximum[k] + (building ? -RANDOM_MARGIN * extent : around);
+    }
+    see_box(s, &box);
+    return box;
+}
+
 /* Draws positions anew for those of the lights that are in something or fill the view; where there
  * is no room, they are above everything. Each has a stream of its own, so that none changes for
  * another. */
 static bool make_room(scene *s, size_t first, const random_box *box, uint64_t seed) {
     const lmp_vec3 eye = vec_load(scene_default_camera(s, 1.5f).eye);
-    size_t count = s->light_count - first;
+    size_t count = s->light_count - first, above = 0;
     space_ball *balls = malloc((count + 1) * sizeof *balls);
     for (size_t i = 0; balls && i < count; i++)
         balls[i].number = first + i;
@@ -95,11 +170,16 @@ static bool make_room(scene *s, size_t first, const random_box *box, uint64_t se
             *position = position_in(box, &random);
             if (attempt < RANDOM_ATTEMPTS)
                 balls[misfits++] = ball;
-            else
+            else {
                 position->y = s->maximum[1] + 2.0f * ball.radius;
+                above++;
+            }
         }
         count = misfits;
     }
+    if (above > 0 && scene_is_inside(s))
+        cli_note(s->name, "no room inside for %zu of the random lights: they are above everything",
+                 above);
     free(balls);
     return balls;
 }
@@ -109,8 +189,8 @@ bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *erro
         return cli_fail(error, s->name, "would have %zu lights (at most %d)",
                         s->light_count + (size_t)count, SCENE_LIGHTS_MAX);
     const size_t first = s->light_count;
-    const float size = scene_size(s);
     const random_box box = box_of(s);
+    const float size = box.size;
     uint64_t random = seed;
     for (int i = 0; i < count; i++) {
         /* Many lights are smaller ones, so that a thousand of them still leave room. */

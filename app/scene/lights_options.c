@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* lights_options.c - the lights that a command line asks for. */
 #include "app/scene/scene.h"
+#include "app/scene/space.h"
 #include "app/scene/vector.h"
+
+#include <stdlib.h>
 
 /* Points become spheres and parallel rays suns, of the same intensity and irradiance. */
 static bool widen_lights(scene *s, const scene_lights_options *options, cli_error *error) {
@@ -18,6 +21,32 @@ static bool widen_lights(scene *s, const scene_lights_options *options, cli_erro
                             kind->widened_by);
     }
     return true;
+}
+
+/* Says which lights the backs of triangles are above and below: shadows keep them there. Hidden
+ * ones are those of meshes that glow around them. */
+static void tell_enclosed(const scene *s) {
+    space_ball *balls = malloc((s->light_count + 1) * sizeof *balls);
+    size_t count = 0, enclosed = 0, first = SIZE_MAX;
+    for (size_t i = 0; balls && i < s->light_count; i++)
+        if (!s->lights[i].hidden && scene_light_has(&s->lights[i], SCENE_LIGHT_POSITION))
+            balls[count++] = (space_ball) { .center = s->lights[i].emitter.position, .number = i };
+    if (count > 0)
+        space_fit(s, balls, count);
+    for (size_t i = 0; i < count; i++)
+        if (balls[i].above_is_back && balls[i].below_is_back) {
+            enclosed++;
+            first = balls[i].number < first ? balls[i].number : first;
+        }
+    free(balls);
+    if (enclosed == 1)
+        cli_note(s->name,
+                 "light %zu is inside closed geometry: with shadows it lights nothing else", first);
+    else if (enclosed > 1)
+        cli_note(s->name,
+                 "%zu lights are inside closed geometry, the first of them light %zu: with shadows "
+                 "they light nothing else",
+                 enclosed, first);
 }
 
 bool scene_apply_lights(scene *s, const scene_lights_options *options, cli_error *error) {
@@ -41,6 +70,7 @@ bool scene_apply_lights(scene *s, const scene_lights_options *options, cli_error
     if (options->random_count > 0 &&
         !scene_add_random_lights(s, options->random_count, options->seed, error))
         return false;
+    tell_enclosed(s);
     for (size_t i = 0; options->hide && i < s->light_count; i++)
         s->lights[i].hidden = 1;
     return true;

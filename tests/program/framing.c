@@ -345,11 +345,39 @@ static void the_framing_that_is_chosen_is_taken(void **state) {
     free(s);
 }
 
+/* A yard in a wide plain: all lights are before the camera that stands in it, clear of its walls.
+ */
+static void random_lights_are_where_the_camera_of_a_large_scene_looks(void **state) {
+    (void)state;
+    const scene_camera own = {
+        .name = "own", .eye = { 0, 2, 8 }, .target = { 0, 2, 0 }, .up = { 0, 1, 0 }, .fov = 0.9f
+    };
+    shape *s = malloc(sizeof *s);
+    shape_clear(s);
+    courtyard(s, 0);
+    shape_box(s, vec(-400, -0.1f, -400), vec(400, -0.05f, 400), false, 0);
+    scene world = shape_scene(s);
+    cli_error error;
+    world.cameras = &own;
+    world.camera_count = 1;
+    world.lights = calloc(SCENE_LIGHTS_MAX, sizeof *world.lights);
+    assert_true(scene_add_random_lights(&world, 30, 3, &error));
+    for (size_t i = 0; i < world.light_count; i++) {
+        const lmp_light *light = &world.lights[i].emitter;
+        assert_true(fabsf(light->position.x) < 8 && fabsf(light->position.z) < 10);
+        assert_true(light->position.z < own.eye[2] && light->position.y > 0);
+        assert_true(light->radius < 1);
+    }
+    free(world.lights);
+    free(s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sixty_shapes_are_seen_from_where_a_person_would_stand),
         cmocka_unit_test(a_box_is_looked_into_from_where_it_is_open),
         cmocka_unit_test(the_framing_that_is_chosen_is_taken),
+        cmocka_unit_test(random_lights_are_where_the_camera_of_a_large_scene_looks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
