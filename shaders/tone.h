@@ -17,10 +17,13 @@
 
 /* Stephen Hill's fit of ACES' reference and sRGB output transforms (BakingLab, 2016), scaled so
  * that middle gray stays 0.18. A channel follows the curve by itself, which makes bright colors
- * white as film does, but for a part FILMIC_HUE that keeps its fraction of the brightest channel: a
- * lamp shows its color however bright it is. */
+ * white as film does, but for a part FILMIC_HUE that keeps its fraction of the brightest channel.
+ * Past what surfaces show that part grows to FILMIC_LAMP: a lamp shows its color however bright it
+ * is. */
 #define FILMIC_SCALE 1.4627f
 #define FILMIC_HUE   0.4f
+#define FILMIC_LAMP  0.85f
+#define FILMIC_PAST  2.0f /* the channel from which it grows, and half of it is there at 4 times */
 
 /* To the working primaries, along the curve (of a channel and the largest of the three), and back.
  */
@@ -35,8 +38,10 @@ TONE_FUNCTION float filmic_curve(float x) {
 }
 
 TONE_FUNCTION float filmic_channel(float x, float peak) {
-    return (1.0f - FILMIC_HUE) * filmic_curve(x) +
-           (peak > 0.0f ? FILMIC_HUE * filmic_curve(peak) * (x / peak) : 0.0f);
+    float past = peak > FILMIC_PAST ? peak - FILMIC_PAST : 0.0f;
+    float hue = FILMIC_HUE + (FILMIC_LAMP - FILMIC_HUE) * (past / (past + 3.0f * FILMIC_PAST));
+    return (1.0f - hue) * filmic_curve(x) +
+           (peak > 0.0f ? hue * filmic_curve(peak) * (x / peak) : 0.0f);
 }
 
 TONE_FUNCTION float filmic_out(int row, float r, float g, float b) {

@@ -48,8 +48,13 @@ static bool write_image(const reference_arguments *a, const scene *world, image 
         return image_write_exr_layers(a->output, layers, 2, error);
     float exposure = a->exposure_given ? a->exposure
                                        : environment_exposure(a->settings.environment, light_count);
-    if (!(exposure > 0))
-        exposure = image_auto_exposure(radiance);
+    if (!(exposure > 0)) {
+        image lit;
+        if (!reference_meter(world, &a->settings, &lit, error))
+            return false;
+        exposure = image_auto_exposure(&lit);
+        image_free(&lit);
+    }
     const image_display display = { .exposure = exposure * image_exposure_of_stops(a->stops),
                                     .tone = a->tone };
     return image_write(radiance, a->output, &display, error);

@@ -59,6 +59,7 @@ static void set_exposure(render_job *j, float factor) {
 
 static float expose(void *job, const image *pixels) {
     render_job *j = job;
+    j->lit = image_measure_lit(pixels);
     set_exposure(j, image_auto_exposure(pixels));
     return j->frame.samples_exposure;
 }

@@ -49,6 +49,7 @@ typedef struct render_job {
     scene_light *moved;
     override_set materials;
     image_display display;
+    image_lit lit; /* what the exposure was found by */
 } render_job;
 
 /* Measures the frame again and prints what was drawn, as JSON. */

@@ -78,6 +78,17 @@ static void add_estimates(const render_job *j, cJSON *stats) {
     }
 }
 
+/* What is judged by it, where the program has chosen it. */
+static void add_exposure(const render_job *j, cJSON *stats) {
+    cJSON_AddNumberToObject(stats, "exposure", (double)j->display.exposure);
+    if (!(j->lit.average > 0))
+        return;
+    cJSON *lit = cJSON_AddObjectToObject(stats, "lit_surface");
+    cJSON_AddNumberToObject(lit, "part_of_image", (double)j->lit.part);
+    cJSON_AddNumberToObject(lit, "average_radiance", (double)j->lit.average);
+    cJSON_AddNumberToObject(lit, "brightest_twentieth", (double)j->lit.brightest);
+}
+
 /* Of the last frame that was timed. */
 static void add_shadows(const render_job *j, cJSON *stats) {
     const shadow_statistics s = shadow_describe(j->shadow);
@@ -136,7 +147,7 @@ bool render_print_stats(render_job *j, cli_error *error) {
     cJSON_AddStringToObject(stats, "window", lmp_sh_window_name((lmp_window)o->window));
     cJSON_AddNumberToObject(stats, "width", o->size[0]);
     cJSON_AddNumberToObject(stats, "height", o->size[1]);
-    cJSON_AddNumberToObject(stats, "exposure", (double)j->display.exposure);
+    add_exposure(j, stats);
     cJSON_AddStringToObject(stats, "device", j->device.name);
     cJSON_AddStringToObject(stats, "driver", j->device.driver);
     cJSON_AddStringToObject(stats, "clock", render_device_clock(&j->device));

@@ -50,13 +50,13 @@ static int find_bin(const size_t histogram[BINS], double wanted) {
     return bin;
 }
 
-float image_auto_exposure(const image *pixels) {
-    static const double middle_grey = 0.18, trimmed = 0.05;
-    enum { RANGE = 8 }; /* stops */
+image_lit image_measure_lit(const image *pixels) {
+    static const double trimmed = 0.05;
+    enum { RANGE = 6 }; /* stops */
     size_t histogram[BINS] = { 0 };
     const size_t lit = fill_histogram(pixels, histogram);
     const double low = trimmed * (double)lit, high = (double)lit - low;
-    const int first = find_bin(histogram, high) - RANGE * BINS_A_STOP;
+    const int brightest = find_bin(histogram, high), first = brightest - RANGE * BINS_A_STOP;
     double below = 0, weight = 0, sum = 0;
     for (int bin = 0; bin < BINS; bin++) {
         const double above = below + (double)histogram[bin];
@@ -67,7 +67,19 @@ float image_auto_exposure(const image *pixels) {
         }
         below = above;
     }
-    return weight > 0 ? (float)(middle_grey / exp2(sum / weight)) : 1;
+    if (!(weight > 0))
+        return (image_lit) { 0 };
+    return (image_lit) { (float)((double)lit / ((double)pixels->width * (double)pixels->height)),
+                         (float)exp2(sum / weight),
+                         (float)exp2((brightest + 0.5) / BINS_A_STOP - STOPS) };
+}
+
+float image_auto_exposure(const image *pixels) {
+    static const double middle_grey = 0.18, bright = 1.5;
+    const image_lit lit = image_measure_lit(pixels);
+    return lit.average > 0
+               ? (float)fmin(middle_grey / (double)lit.average, bright / (double)lit.brightest)
+               : 1;
 }
 
 float image_exposure_of_stops(float stops) {

@@ -5,9 +5,18 @@
 
 #include "app/image/pixels.h"
 
-/* The exposure (a factor on radiance) that maps the log-average of what is lit to middle gray:
- * the darkest and brightest twentieth, and pixels 8 stops darker than these, do not count: the tail
- * of a specular lobe is as good as black. 1 for a black image. */
+/* What is lit in an image: radiance above 0. */
+typedef struct image_lit {
+    float part;      /* of all pixels */
+    float average;   /* of the logarithm of what counts for exposure; 0: nothing does */
+    float brightest; /* the brightest twentieth is above */
+} image_lit;
+image_lit image_measure_lit(const image *image);
+
+/* The exposure (a factor on radiance) that maps the log-average of what is lit to middle gray, or
+ * less, so that the brightest twentieth alone is above 1.5, where the filmic curve ends. That, the
+ * darkest twentieth, and pixels 6 stops darker than it do not count: the tail of a specular lobe is
+ * as good as black. 1 for a black image. */
 float image_auto_exposure(const image *image);
 
 /* The factor that an exposure of `stops` EV means: 2^stops. */

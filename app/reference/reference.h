@@ -37,4 +37,9 @@ int reference_samples(const reference_settings *settings);
 bool reference_render(const scene *scene, const reference_settings *settings, image *radiance,
                       image *standard_error, cli_error *error);
 
+/* What an image's exposure is found by, as render finds it: light that surfaces reflect, without
+ * shadows, lamps, what glows and the backdrop. *pixels is created. */
+bool reference_meter(const scene *scene, const reference_settings *settings, image *pixels,
+                     cli_error *error);
+
 #endif

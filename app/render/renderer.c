@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/renderer.h"
 
+#include "app/render/frame/surfaces.h"
 #include "app/timing/timing.h"
 
 #include <glob.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -136,22 +138,56 @@ void renderer_set_environment(any_renderer *r, const environment *around) {
         cpu_set_environment(r->cpu, around);
 }
 
+/* --- exposure --------------------------------------------------------------------------------- */
+
+enum { METER_PIXELS = 192 * 108 };
+
+/* In the place of shadows: what surfaces reflect, and black where none is. */
+static bool keep_lit(void *user, const render_frame *frame, const render_surfaces *s, float *rgba,
+                     cli_error *error) {
+    image *pixels = user;
+    (void)frame, (void)error;
+    for (size_t i = 0; i < (size_t)s->width * (size_t)s->height; i++)
+        for (size_t c = 0; c < 3; c++) {
+            const float reflected = rgba[4 * i + c] - s->emission[c][i];
+            pixels->rgb[3 * i + c] =
+                s->seen[i] < RENDER_SEES_LIGHT && reflected > 0 ? reflected : 0;
+        }
+    return true;
+}
+
 bool renderer_meter(any_renderer *r, const render_frame *frame, image *pixels, cli_error *error) {
-    render_frame first = *frame;
-    first.hide_backdrop = true;
-    first.meter.run = NULL;
-    memset(first.background, 0, sizeof first.background);
-    if (r->gl)
-        first.samples = 1;
-    return (r->gl ? gpu_render(r->gl, &first, NULL, error)
-                  : cpu_render(r->cpu, &first, 1, NULL, error)) &&
-           renderer_read_image(r, pixels, error);
+    const double all = (double)frame->width * frame->height,
+                 scale = all > METER_PIXELS ? sqrt(METER_PIXELS / all) : 1;
+    render_frame small = *frame;
+    scene_light *hidden = malloc((frame->light_count + 1) * sizeof *hidden);
+    small.width = (int)fmax(1, frame->width * scale);
+    small.height = (int)fmax(1, frame->height * scale);
+    small.samples = 1;
+    small.keep_geometry = false;
+    small.meter.run = NULL;
+    if (!hidden)
+        return cli_fail(error, NULL, "out of memory");
+    for (size_t i = 0; i < frame->light_count; i++) {
+        hidden[i] = frame->lights[i];
+        hidden[i].hidden = 1;
+    }
+    small.lights = hidden;
+    bool ok = image_create(pixels, small.width, small.height, error);
+    small.shadow = (render_pass) { keep_lit, pixels };
+    if (ok && !(r->gl ? gpu_render(r->gl, &small, NULL, error)
+                      : cpu_render(r->cpu, &small, 1, NULL, error))) {
+        image_free(pixels);
+        ok = false;
+    }
+    free(hidden);
+    return ok;
 }
 
 bool renderer_draw(any_renderer *r, const render_frame *frame, render_times *times,
                    cli_error *error) {
     render_frame metered = *frame;
-    if (frame->meter.run && !(r->cpu && cpu_has_planes(frame))) {
+    if (frame->meter.run) {
         image pixels;
         if (!renderer_meter(r, frame, &pixels, error))
             return false;

@@ -72,8 +72,9 @@ void renderer_set_fibers(any_renderer *renderer, const lmp_brdf_table *const *wh
  * outlive the renderer. */
 void renderer_set_environment(any_renderer *renderer, const environment *environment);
 
-/* What a frame's exposure is found by: its first sample alone, where what is seen past everything
- * is black. *pixels is created. */
+/* What a frame's exposure is found by: light that surfaces reflect, without shadows, lamps, what
+ * glows and what is past everything, which is black. It is the same whether lights are seen, and
+ * small, whatever the frame's size. *pixels is created. */
 bool renderer_meter(any_renderer *renderer, const render_frame *frame, image *pixels,
                     cli_error *error);
 

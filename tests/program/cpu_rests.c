@@ -168,44 +168,60 @@ static float meter(void *user, const image *pixels) {
     return 3;
 }
 
-/* The meter sees the frame of one sample before black, and the mean is that of its exposure. */
-static void expect_metered(const fixture *f, render_frame frame) {
+/* The mean is that of the exposure which the meter tells, once. */
+static void expect_metered(const fixture *f, render_frame frame, metered *m) {
     cli_error error = { "" };
     any_renderer *renderer = renderer_create(&f->device, &error);
     assert_non_null(renderer);
     const size_t bytes = 3 * (size_t)frame.width * (size_t)frame.height * sizeof(float);
-    metered m = { .runs = 0 };
-    image drawn, first, exposed;
-    frame.meter = (render_meter) { meter, &m };
+    image drawn, again, exposed;
+    frame.meter = (render_meter) { meter, m };
     draw(renderer, &frame, &drawn);
-    assert_int_equal(m.runs, 1);
-    assert_true(renderer_meter(renderer, &frame, &first, &error));
-    assert_int_equal(m.runs, 1);
-    assert_memory_equal(m.pixels.rgb, first.rgb, bytes);
-    assert_true(first.rgb[0] == 0);
-    assert_true(frame.samples > 1 || drawn.rgb[0] == frame.background[0]);
+    assert_int_equal(m->runs, 1);
+    assert_true(renderer_meter(renderer, &frame, &again, &error));
+    assert_int_equal(m->runs, 1);
+    assert_memory_equal(m->pixels.rgb, again.rgb,
+                        3 * (size_t)again.width * (size_t)again.height * sizeof(float));
     frame.meter.run = NULL;
     frame.samples_exposure = 3;
     draw_anew(f, frame, &exposed);
     assert_memory_equal(drawn.rgb, exposed.rgb, bytes);
-    image_free(&m.pixels);
     image_free(&drawn);
-    image_free(&first);
+    image_free(&again);
     image_free(&exposed);
     renderer_destroy(renderer);
 }
 
-static void the_meter_sees_the_first_sample(void **state) {
+/* The same pixels whatever the samples, the background, and whether lights are seen: black where
+ * there is no surface. */
+static void the_meter_sees_lit_surface_alone(void **state) {
     const fixture *f = *state;
-    for (int samples = 1; samples <= 4; samples += 3)
-        for (int planes = 0; planes < 2; planes++) {
-            render_frame frame = frame_of(f, f->world.lights, f->world.light_count);
-            frame.camera.target[1] += 10; /* so that nothing stands in the upper left corner */
-            frame.background[0] = 0.5f;
-            frame.samples = samples;
-            frame.keep_geometry = planes;
-            expect_metered(f, frame);
-        }
+    metered first = { .runs = 0 };
+    scene_light *hidden = calloc(f->world.light_count, sizeof *hidden);
+    for (size_t i = 0; i < f->world.light_count; i++) {
+        hidden[i] = f->world.lights[i];
+        hidden[i].hidden = 1;
+    }
+    for (int kind = 0; kind < 8; kind++) {
+        render_frame frame = frame_of(f, kind & 1 ? hidden : f->world.lights, f->world.light_count);
+        metered m = { .runs = 0 };
+        frame.camera.target[1] += 10; /* so that nothing stands in the upper left corner */
+        frame.background[0] = 0.5f;
+        frame.samples = kind & 2 ? 4 : 1;
+        frame.keep_geometry = kind & 4;
+        expect_metered(f, frame, &m);
+        assert_true(m.pixels.rgb[0] == 0);
+        if (kind == 0)
+            first = m;
+        else
+            assert_memory_equal(m.pixels.rgb, first.pixels.rgb,
+                                3 * (size_t)m.pixels.width * (size_t)m.pixels.height *
+                                    sizeof(float));
+        if (kind > 0)
+            image_free(&m.pixels);
+    }
+    image_free(&first.pixels);
+    free(hidden);
 }
 
 static int open_scene(void **state) {
@@ -228,7 +244,7 @@ int main(void) {
         cmocka_unit_test(a_light_that_moves_uncovers_what_it_hid),
         cmocka_unit_test(another_view_is_traced),
         cmocka_unit_test(other_materials_are_looked_at_again),
-        cmocka_unit_test(the_meter_sees_the_first_sample),
+        cmocka_unit_test(the_meter_sees_lit_surface_alone),
     };
     return cmocka_run_group_tests(tests, open_scene, close_scene);
 }

@@ -202,6 +202,39 @@ static void the_curve_keeps_black_and_gray_rises_and_ends_white(void **state) {
     image_free(&pixels);
 }
 
+/* Orange lamps, each four times as bright as the one before: none is nearer to white than a red
+ * that has a half of its green in it. */
+static void bright_lamps_keep_their_hue(void **state) {
+    (void)state;
+    static unsigned char bytes[VALUES];
+    image pixels = noise();
+    for (float radiance = 4; radiance < 65504; radiance *= 4) {
+        for (size_t i = 0; i < VALUES; i += 3) {
+            pixels.rgb[i] = radiance;
+            pixels.rgb[i + 1] = 0.4f * radiance;
+            pixels.rgb[i + 2] = 0.05f * radiance;
+        }
+        image_tone_map(&pixels, &(image_display) { .exposure = 1 }, bytes);
+        assert_true(bytes[0] >= 240);
+        assert_true(bytes[0] >= bytes[1] + 30 && bytes[1] >= bytes[2] + 50);
+    }
+    image_free(&pixels);
+}
+
+/* Few bright surfaces hold the rest down: the brightest twentieth alone is above 1.5. */
+static void exposure_does_not_clip_what_is_lit(void **state) {
+    (void)state;
+    image pixels = noise();
+    fill(&pixels, 1);
+    for (size_t i = 0; i < VALUES / 10; i++)
+        pixels.rgb[i] = 40;
+    CHECK_WITHIN(fabs((double)image_auto_exposure(&pixels) * 40 / 1.5 - 1), 0.05);
+    const image_lit lit = image_measure_lit(&pixels);
+    assert_true(lit.part == 1);
+    CHECK_WITHIN(fabs((double)lit.brightest / 40 - 1), 0.05);
+    image_free(&pixels);
+}
+
 static void an_image_is_made_finite_before_it_is_written(void **state) {
     (void)state;
     image pixels = noise();
@@ -242,6 +275,8 @@ int main(void) {
         cmocka_unit_test(more_pixels_than_wanted_are_refused),
         cmocka_unit_test(paths_that_cannot_be_written_are_refused_at_once),
         cmocka_unit_test(exposure_puts_what_is_lit_at_middle_grey),
+        cmocka_unit_test(exposure_does_not_clip_what_is_lit),
+        cmocka_unit_test(bright_lamps_keep_their_hue),
         cmocka_unit_test(the_curve_keeps_black_and_gray_rises_and_ends_white),
         cmocka_unit_test(an_image_is_made_finite_before_it_is_written),
         cmocka_unit_test(every_curve_is_chosen_by_its_name_and_the_linear_one_does_nothing),

@@ -341,22 +341,6 @@ static bool draw_sample(drawing *d, int index, bool keep, render_times *times, c
     return true;
 }
 
-static bool meter(drawing *d, bool kept, cli_error *error) {
-    const render_surfaces *s = kept ? &d->renderer->first : &d->renderer->surfaces;
-    const render_meter *meter = &d->frame->meter;
-    const size_t count = (size_t)s->width * (size_t)s->height;
-    image pixels;
-    if (!image_create(&pixels, s->width, s->height, error))
-        return false;
-    for (size_t i = 0; i < count; i++)
-        for (size_t c = 0; c < 3; c++)
-            pixels.rgb[3 * i + c] =
-                s->seen[i] == RENDER_SEES_NOTHING ? 0 : d->renderer->rgba[4 * i + c];
-    d->exposure = meter->run(meter->user, &pixels);
-    image_free(&pixels);
-    return true;
-}
-
 /* Where something needs all surfaces of a sample at once, or samples come one at a time: then
  * `show` has the image be the mean so far. */
 static bool draw_whole(drawing *d, int first, int end, bool show, render_times *times,
@@ -365,8 +349,7 @@ static bool draw_whole(drawing *d, int first, int end, bool show, render_times *
     if (!size_planes(d, keep, error))
         return false;
     for (int i = first; i < end; i++) {
-        if (!draw_sample(d, i, keep, times, error) ||
-            (i == 0 && d->frame->meter.run && !meter(d, keep, error)))
+        if (!draw_sample(d, i, keep, times, error))
             return false;
         resolve(d, i, show || i == end - 1);
     }
@@ -375,8 +358,9 @@ static bool draw_whole(drawing *d, int first, int end, bool show, render_times *
 
 /* --- a frame ---------------------------------------------------------------------------------- */
 
-bool cpu_has_planes(const render_frame *frame) {
-    return frame->shadow.run || frame->keep_geometry || (frame->meter.run && frame->samples <= 1) ||
+/* Whether something needs all surfaces of a sample at once. */
+static bool has_planes(const render_frame *frame) {
+    return frame->shadow.run || frame->keep_geometry ||
            method_table[frame->method].reads & METHOD_READS_FIELD;
 }
 
@@ -404,9 +388,8 @@ static bool draw(cpu_renderer *r, const render_frame *frame, int first, int end,
     if (!cpu_lights_create(frame, r->world->bvh, &lights))
         return cli_fail(error, NULL, "out of memory");
     d.view.lights = lights;
-    const bool ok = refine || cpu_has_planes(frame)
-                        ? draw_whole(&d, first, end, refine, times, error)
-                        : draw_streamed(&d, times, error);
+    const bool ok = refine || has_planes(frame) ? draw_whole(&d, first, end, refine, times, error)
+                                                : draw_streamed(&d, times, error);
     trace_spheres_destroy(lights);
     if (times)
         times->total = 1e3 * (timing_now() - start);

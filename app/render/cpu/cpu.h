@@ -29,13 +29,9 @@ render_materials *cpu_renderer_materials(cpu_renderer *renderer);
  * renderer. */
 void cpu_set_environment(cpu_renderer *renderer, const environment *environment);
 
-/* Samples 0 to count - 1 of frame->samples, of which the image is the mean. The frame's meter runs
- * if cpu_has_planes. */
+/* Samples 0 to count - 1 of frame->samples, of which the image is the mean. */
 bool cpu_render(cpu_renderer *renderer, const render_frame *frame, int count, render_times *times,
                 cli_error *error);
-
-/* Whether cpu_render has the planes of the whole first sample. */
-bool cpu_has_planes(const render_frame *frame);
 
 /* Sample `index` alone, after those before it: the image is the mean of all so far. */
 bool cpu_refine(cpu_renderer *renderer, const render_frame *frame, int index, render_times *times,

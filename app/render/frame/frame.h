@@ -25,8 +25,8 @@ typedef struct render_pass {
     void *user;
 } render_pass;
 
-/* Looks at the first sample of every pixel, in which what is seen past everything is black, and
- * tells the frame's samples_exposure by it. */
+/* Looks at the light that surfaces reflect (renderer_meter), and tells the frame's samples_exposure
+ * by it. */
 typedef struct render_meter {
     float (*run)(void *user, const image *pixels);
     void *user;
