@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+# From where a model is seen and how bright, as render and reference choose it.
+set -eu
+. tests/checks/common.sh
+cd "$WORK"
+small='--size 32x24 --samples 1 --bands 3'
+
+cat >box.obj <<'END'
+v -1 0 -1
+v 1 0 -1
+v 1 2 -1
+v -1 2 -1
+v -1 0 1
+v 1 0 1
+v 1 2 1
+v -1 2 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 4 8 7 3
+f 1 5 8 4
+f 2 3 7 6
+END
+cat >lamps.json <<'END'
+{ "lights": [ { "position": [-2, 2, 3], "radius": 0.4, "radiance": [900, 300, 50] },
+              { "position": [2, 3, 2], "radius": 0.2, "radiance": [100, 300, 900] },
+              { "position": [0, 1, 3], "radius": 0.3, "radiance": [10, 10, 10] } ] }
+END
+
+# which framing was found, and the other; not where one was chosen
+"$PROGRAM" render box.obj $small -o found.png 2>err
+grep -q 'box.obj: no camera in it, seen from outside (--framing inside steps in)' err || fail "$(cat err)"
+for from in outside inside; do
+    "$PROGRAM" render box.obj $small --framing $from -o $from.png 2>err
+    ! grep -q framing err || fail "--framing $from: $(cat err)"
+    "$PROGRAM" reference box.obj --size 32x24 --spp 1 --framing $from -o reference-$from.png 2>err
+    ! grep -q framing err || fail "reference --framing $from: $(cat err)"
+done
+cmp -s found.png outside.png || fail "the framing that was found is not --framing outside"
+! cmp -s inside.png outside.png || fail "--framing inside changes nothing"
+! cmp -s reference-inside.png reference-outside.png || fail "reference --framing inside changes nothing"
+"$PROGRAM" render box.obj $small --eye 3,3,3 -o eye.png 2>err
+! grep -q framing err || fail "--eye: $(cat err)"
+status=0
+"$PROGRAM" render builtin:balls $small --framing outside --camera 0 -o none.png 2>err || status=$?
+[ $status = 1 ] && grep -q 'camera: --camera and --framing exclude each other' err || fail "$status: $(cat err)"
+[ ! -e none.png ] || fail "an image beside an error"
+
+# exposure does not depend on shadows, nor on lamps that are seen
+for options in '' --shadows --hide-lights '--shadows --hide-lights'; do
+    "$PROGRAM" render box.obj $small --lights lamps.json --environment studio --stats --repeat 1 $options -o lit.png 2>err |
+        grep -e '"exposure"' -e '"average_radiance"' >exposure
+    [ "$(grep -c . exposure)" = 2 ] || fail "--stats $options: $(cat exposure)"
+    [ -n "$options" ] || cp exposure first
+    cmp -s exposure first || fail "$options: $(cat first exposure)"
+done
+
+# a light inside the box
+echo '{ "lights": [ { "position": [0, 1, 0], "radius": 0.1, "radiance": [10, 10, 10] } ] }' >inside.json
+"$PROGRAM" render box.obj $small --lights inside.json -o lit.png 2>err
+grep -q 'box.obj: light 0 is inside closed geometry: with shadows it lights nothing else' err || fail "$(cat err)"
+"$PROGRAM" render box.obj $small --lights lamps.json -o lit.png 2>err
+! grep -q 'closed geometry' err || fail "$(cat err)"
