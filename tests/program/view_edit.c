@@ -279,6 +279,18 @@ static void another_scene_begins_anew(void **unused) {
     scene_free(&other);
 }
 
+/* F2 does what --framing inside and outside do. */
+static void a_key_sees_a_scene_from_inside_and_from_outside(void **unused) {
+    (void)unused;
+    const float aspect = (float)state.now.width / (float)state.now.height;
+    for (int framing = SCENE_FRAMING_INSIDE; framing >= SCENE_FRAMING_OUTSIDE; framing--) {
+        const scene_camera expected = scene_framed_camera(&world, (scene_framing)framing, aspect);
+        key("F2");
+        assert_memory_equal(&state.now.camera, &expected, sizeof expected);
+        assert_int_equal(state.walking, framing == SCENE_FRAMING_INSIDE);
+    }
+}
+
 /* Outside one goes around what stands there, inside one turns the head. */
 static void inside_a_building_the_left_button_looks_around(void **unused) {
     (void)unused;
@@ -318,6 +330,7 @@ int main(void) {
         TEST(lights_are_saved_and_dropped),
         TEST(lights_are_read_from_settings),
         TEST(another_scene_begins_anew),
+        TEST(a_key_sees_a_scene_from_inside_and_from_outside),
         TEST(inside_a_building_the_left_button_looks_around),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
