@@ -77,7 +77,7 @@ export function makeRenderer(canvas, library) {
     }
     let mesh = null;
 
-    function drawGeometry(camera, lights) {
+    function drawGeometry(camera, lights, lampsShown = true) {
         const lightCount = Math.min(lights.length / 12, lightsMost);
         targets.resize(canvas.width, canvas.height);
         setFrame(camera.frame(canvas.width, canvas.height, lightCount));
@@ -93,7 +93,7 @@ export function makeRenderer(canvas, library) {
         gl.useProgram(light.program);
         gl.enable(gl.CULL_FACE);
         gl.cullFace(gl.FRONT);
-        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 14, lightCount);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 14, lampsShown ? lightCount : 0);
         gl.disable(gl.CULL_FACE);
         gl.disable(gl.DEPTH_TEST);
     }
@@ -137,7 +137,7 @@ export function makeRenderer(canvas, library) {
         exposure(camera, lights, settings) {
             const width = 160, height = 90, rgba = new Float32Array(4 * width * height);
             const target = makeTable(gl, gl.RGBA32F, width, height), framebuffer = gl.createFramebuffer();
-            drawGeometry(camera, lights);
+            drawGeometry(camera, lights, false);
             gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
             gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target, 0);
             shade(settings, { width, height, radiance: true });

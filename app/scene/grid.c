@@ -6,10 +6,9 @@
 
 #include <stdlib.h>
 
-#define GRID_FINE  2.0f  /* samples of a triangle a cell */
-#define GRID_FLAT  1e-3f /* of the longest extent: what a shorter one is taken for */
-#define GRID_SIDE  0.5f  /* of the area that faces away: the front that is seen beside it */
-#define GRID_STEPS 512   /* samples of a triangle along a side, at most */
+#define GRID_FINE 2.0f  /* samples of a triangle a cell */
+#define GRID_FLAT 1e-3f /* of the longest extent: what a shorter one is taken for */
+#define GRID_SIDE 0.5f  /* of the area that faces away: the front that is seen beside it */
 
 /* --- filling ---------------------------------------------------------------------------------- */
 
@@ -18,8 +17,7 @@ static size_t cell_at(const int cell[3]) {
 }
 
 static int inside(float cells) {
-    const int cell = (int)cells;
-    return cell < 0 ? 0 : cell < GRID_CELLS ? cell : GRID_CELLS - 1;
+    return !(cells > 0.0f) ? 0 : cells < GRID_CELLS ? (int)cells : GRID_CELLS - 1;
 }
 
 /* Its length in cells, along the axis that has most. */
@@ -28,8 +26,9 @@ static float span(const scene_grid *g, lmp_vec3 edge) {
                  fmaxf(fabsf(edge.y) / g->size[1], fabsf(edge.z) / g->size[2]));
 }
 
+/* Nothing is longer than the grid, unless its bounds are those of something else. */
 static int steps(float span) {
-    return span < GRID_STEPS / GRID_FINE ? 1 + (int)(GRID_FINE * span) : GRID_STEPS;
+    return span < GRID_CELLS ? 1 + (int)(GRID_FINE * span) : 1;
 }
 
 /* Spreads the triangle over its cells: samples along its shortest side and another one. */
