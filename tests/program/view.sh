@@ -264,9 +264,9 @@ test_refusals() {
     refused view room.obj --script none.txt
     refused view builtin:ball --animate none.json
     refused view --from room.obj
-    small="room.obj --lights lights.json --size 80x60 --frames 9"
+    small="room.obj --framing outside --lights lights.json --size 80x60 --frames 9"
     printf '0 shot none/x.png\n' >bad.txt
-    refused view $small --framing outside --script bad.txt
+    refused view $small --script bad.txt
     grep -q 'none/x.png' err || fail "not the image's fault: $(cat err)"
     refused view $small --record room.obj
     refused view $small --state none/state.json
