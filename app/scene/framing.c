@@ -150,6 +150,13 @@ static void widen(scene_camera *camera, float aspect) {
         (float)(2.0 * atan(tan(0.5 * (double)camera->fov) * (double)(camera->aspect / aspect)));
 }
 
+/* The file's first. */
+static scene_camera own_camera(const scene *s, float aspect) {
+    scene_camera first = s->cameras[0];
+    widen(&first, aspect);
+    return first;
+}
+
 /* --- which ------------------------------------------------------------------------------------ */
 
 const char *const scene_framing_names[] = { "auto", "outside", "inside", NULL };
@@ -178,9 +185,8 @@ static scene_frame find_frame(const scene *s, scene_framing wanted) {
     const scene_interior found = scene_interior_find(grid);
     frame.middle = found.middle;
     frame.quarter = best_quarter(&found);
-    if (wanted == SCENE_FRAMING_AUTO &&
-        (s->camera_count > 0 ? scene_interior_closes(grid, vec_load(s->cameras->eye))
-                             : found.inside))
+    frame.own = s->camera_count > 0 && scene_interior_closes(grid, vec_load(s->cameras->eye));
+    if (wanted == SCENE_FRAMING_AUTO && (s->camera_count > 0 ? frame.own : found.inside))
         frame.framing = SCENE_FRAMING_INSIDE;
     scene_grid_destroy(grid);
     return frame;
@@ -203,16 +209,13 @@ scene_camera scene_framed_camera(const scene *s, scene_framing framing, float as
     const scene_frame frame = scene_frame_of(s);
     if (framing == SCENE_FRAMING_AUTO)
         framing = frame.framing;
-    return framing == SCENE_FRAMING_INSIDE
-               ? camera_inside(s, frame.middle)
-               : camera_before(s, frame.quarter, aspect > 0.0f ? aspect : 1.0f);
+    if (framing == SCENE_FRAMING_INSIDE)
+        return frame.own ? own_camera(s, aspect) : camera_inside(s, frame.middle);
+    return camera_before(s, frame.quarter, aspect > 0.0f ? aspect : 1.0f);
 }
 
 scene_camera scene_default_camera(const scene *s, float aspect) {
-    if (s->camera_count > 0 && !(s->frame && s->frame->wanted != SCENE_FRAMING_AUTO)) {
-        scene_camera first = s->cameras[0];
-        widen(&first, aspect);
-        return first;
-    }
+    if (s->camera_count > 0 && !(s->frame && s->frame->wanted != SCENE_FRAMING_AUTO))
+        return own_camera(s, aspect);
     return scene_framed_camera(s, SCENE_FRAMING_AUTO, aspect);
 }

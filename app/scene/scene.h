@@ -146,7 +146,8 @@ extern const char *const scene_framing_names[];
 /* How it is framed (app/scene/framing.c). */
 typedef struct scene_frame {
     scene_framing wanted, framing; /* by the options; found: AUTO until then */
-    lmp_vec3 middle;               /* of the room, where the camera stands inside */
+    bool own;                      /* the file's first camera is the one inside */
+    lmp_vec3 middle;               /* of the room, where another one stands inside */
     int quarter;                   /* of a circle that a camera outside goes around */
 } scene_frame;
 
@@ -323,8 +324,9 @@ float scene_camera_height(const scene_camera *camera, float distance);
 scene_frame scene_frame_of(const scene *scene);
 bool scene_is_inside(const scene *scene);
 
-/* The scene's first camera, or where there is none, or framing is chosen, one that frames it. In an
- * image narrower than the camera's aspect it sees more, so that nothing is cut off at the sides. */
+/* The scene's first camera, or where there is none, or another framing is chosen, one that frames
+ * it. In an image narrower than the camera's aspect it sees more, so that nothing is cut off at the
+ * sides. */
 scene_camera scene_default_camera(const scene *scene, float aspect);
 scene_camera scene_framed_camera(const scene *scene, scene_framing framing, float aspect);
 
