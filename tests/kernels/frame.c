@@ -16,8 +16,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#define GOLDEN_BALLS  0x06a38cb69703cea7
-#define GOLDEN_ATRIUM 0xe4fb622706efb6c6
+#define GOLDEN_BALLS  0x7b769734334bfb7e
+#define GOLDEN_ATRIUM 0x3c72b44701fd0478
 
 enum { WIDTH = 80, HEIGHT = 45, BANDS = 6 };
 
