@@ -16,8 +16,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#define GOLDEN_BALLS  0x7b769734334bfb7e
-#define GOLDEN_ATRIUM 0x3c72b44701fd0478
+#define GOLDEN_BALLS  0xaa74a4ca7568955a
+#define GOLDEN_ATRIUM 0x8888000e62dce375
 
 enum { WIDTH = 80, HEIGHT = 45, BANDS = 6 };
 
