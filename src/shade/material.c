@@ -72,8 +72,9 @@ void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec
         reflect_metallic_roughness(material, normal, view, reflection);
         return;
     }
+    const lmp_rgb specular = material->specular;
     reflection->diffuse = material->diffuse;
-    reflection->count = 1;
+    reflection->count = specular.r != 0 || specular.g != 0 || specular.b != 0;
     reflection->lobe[0] =
         (shade_phong) { lmp_shade_mirrored(normal, view), material->exponent, material->specular };
 }
