@@ -73,6 +73,46 @@ static void raise_errors(float ratio, zonal_errors errors) {
     }
 }
 
+/* Eq. 11 in double. */
+static double closed_delta(int l, double cos_a) {
+    if (l == 0)
+        return 1 - cos_a;
+    return (paper_legendre(l - 1, cos_a) - paper_legendre(l + 1, cos_a)) / (2 * l + 1);
+}
+
+/* The error of Eq. 12 as printed, in double, of so many bands: in parts of the largest value. */
+static double printed_error(int bands, double a) {
+    double worst = 0, largest = 0;
+    for (int l = 0; l < bands; l++) {
+        const double truth = paper_zonal(l, a);
+        const double printed = sqrt(M_PI * (2 * l + 1)) * closed_delta(l, cos(a));
+        worst = fmax(worst, fabs(printed - truth));
+        largest = fmax(largest, fabs(truth));
+    }
+    return worst / largest;
+}
+
+/* The paper's shaders compute in single precision: a formula that holds in double alone is not
+ * robust there, and the verdict says which of the two it is. */
+static void claim_robust(paper *p) {
+    const float ratio = 1e-3f;
+    const double most = 1e-3, in_double = printed_error(counts[2], asin((double)ratio));
+    zonal_errors far = { { 0 } };
+    raise_errors(ratio, far);
+    paper_claim_add(p,
+                    far[PRINTED][2] <= most ? PAPER_HOLDS
+                    : in_double <= most     ? PAPER_IMPRECISE
+                                            : PAPER_FAILS,
+                    (paper_claim) { "the projection is robust to lights far away and near",
+                                    "no number", "Eq. 12 as printed, in float32 and in double",
+                                    "Eq. 12 as printed subtracts Legendre polynomials that agree "
+                                    "to many digits, which double has to spare; by differences, as "
+                                    "the library has it, far lights keep theirs in float32" },
+                    "error of a light at r/d 0.001, 10 bands: %.0e in float32, %.0e in double; "
+                    "library %.0e in float32",
+                    far[PRINTED][2], in_double, far[LIBRARY][2]);
+}
+
 static bool write_errors(paper *p, cli_error *error) {
     const float ratios[] = { 1, 0.9f, 0.5f, 0.1f, 0.01f, 1e-3f, 1e-4f, 1e-6f };
     page_table table;
@@ -98,16 +138,7 @@ static bool write_errors(paper *p, cli_error *error) {
                        e[PRINTED][3], e[PRINTED][4], e[SLOAN][0], e[SLOAN][1], e[LIBRARY][0],
                        e[LIBRARY][1], e[LIBRARY][2], e[LIBRARY][3], e[LIBRARY][4]);
     }
-    zonal_errors far = { { 0 } };
-    raise_errors(1e-3f, far);
-    paper_claim_add(p, far[PRINTED][2] <= 1e-3 ? PAPER_HOLDS : PAPER_FAILS,
-                    (paper_claim) { "the projection is robust to lights far away and near",
-                                    "no number",
-                                    "Eq. 12 as printed subtracts Legendre polynomials that agree "
-                                    "to many digits; by differences, as the library has it, far "
-                                    "lights keep theirs" },
-                    "error %.0e of a light at r/d 0.001, 10 bands in float32; library %.0e",
-                    far[PRINTED][2], far[LIBRARY][2]);
+    claim_robust(p);
     return page_table_end(&table, error);
 }
 
@@ -118,13 +149,6 @@ bool paper_step_cap(paper *p, cli_error *error) {
                "A sphere of radius r at distance d covers a cap Q of half angle a of the unit "
                "sphere around the shaded point x.");
     return write_errors(p, error);
-}
-
-/* Eq. 11 in double. */
-static double closed_delta(int l, double cos_a) {
-    if (l == 0)
-        return 1 - cos_a;
-    return (paper_legendre(l - 1, cos_a) - paper_legendre(l + 1, cos_a)) / (2 * l + 1);
 }
 
 bool paper_step_integral(paper *p, cli_error *error) {

@@ -7,6 +7,7 @@
 static const char *const verdicts[] = {
     [PAPER_HOLDS] = "holds",
     [PAPER_FAILS] = "does not hold",
+    [PAPER_IMPRECISE] = "not as printed in single precision",
     [PAPER_ELSEWHERE] = "not on this device",
 };
 
@@ -34,12 +35,14 @@ bool paper_write_verdict(paper *p, cli_error *error) {
               "nanoseconds a pixel, light and band, so that machines and sizes compare. Claims of "
               "steps that were left out are not listed.");
     page_wrapped_begin(&p->page);
-    if (!page_table_begin(&p->page, &table, "verdict", "claim|paper|here|verdict|why", error))
+    if (!page_table_begin(&p->page, &table, "verdict", "claim|paper|here|verdict|rests on|why",
+                          error))
         return false;
     for (int i = 0; i < p->claim_count; i++) {
         const paper_judged *judged = &p->claims[i];
-        page_table_row(&table, "%s|%s|%s|%s|%s", judged->claim.text, judged->claim.number,
-                       judged->here, verdicts[judged->verdict], judged->claim.why);
+        page_table_row(&table, "%s|%s|%s|%s|%s|%s", judged->claim.text, judged->claim.number,
+                       judged->here, verdicts[judged->verdict], judged->claim.basis,
+                       judged->claim.why);
     }
     const bool ok = page_table_end(&table, error);
     page_wrapped_end(&p->page);

@@ -32,12 +32,13 @@ bool paper_write(const paper_options *options, int *failures, cli_error *error);
 typedef enum paper_verdict {
     PAPER_HOLDS,
     PAPER_FAILS,
-    PAPER_ELSEWHERE /* a time on a GPU, where there is none */
+    PAPER_IMPRECISE, /* the formula as printed fails in single precision alone */
+    PAPER_ELSEWHERE  /* the paper measured on a GPU what a CPU does here */
 } paper_verdict;
 
-/* What the paper says, its number, and why it holds or not. */
+/* What the paper says, its number, on what the verdict rests, and why it holds or not. */
 typedef struct paper_claim {
-    const char *text, *number, *why;
+    const char *text, *number, *basis, *why;
 } paper_claim;
 
 typedef struct paper_judged {

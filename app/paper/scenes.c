@@ -36,7 +36,7 @@ static void claim_time(paper *p, const figure *f, int shown, double ns, bool sof
         paper_nanoseconds(f->paper[shown], f->paper_size, f->light_count, f->shown[shown]);
     const paper_verdict missed = software ? PAPER_ELSEWHERE : PAPER_FAILS;
     paper_claim_add(p, ns <= theirs ? PAPER_HOLDS : missed,
-                    (paper_claim) { f->claim[shown], f->number[shown],
+                    (paper_claim) { f->claim[shown], f->number[shown], f->scene,
                                     software ? "OpenGL is software here: a CPU is timed, the "
                                                "paper's is a GPU"
                                              : "the shading pass alone, by the fastest method" },
