@@ -2,6 +2,7 @@
 #include "app/paper/paper.h"
 #include "app/command/command.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,13 +12,18 @@ static int run_line(int argc, char **argv) {
     return command ? command->run(command, argc, argv) : CLI_USAGE;
 }
 
-/* The path as seen from anywhere. */
-static bool make_absolute(const char **path, cli_error *error) {
-    if (!*path || strncmp(*path, "builtin:", 8) == 0)
-        return true;
-    const char *given = *path;
-    *path = realpath(given, NULL);
-    return *path || cli_fail(error, given, "does not exist");
+/* The folders, as seen from anywhere: those given, else that of the environment. */
+static bool find_folders(cli_list *folders, cli_error *error) {
+    const char *const usual = getenv("LAMPION_DATA");
+    if (folders->count == 0 && usual && *usual)
+        folders->items[folders->count++] = usual;
+    for (int i = 0; i < folders->count; i++) {
+        const char *const given = folders->items[i];
+        folders->items[i] = realpath(given, NULL); /* kept until the program ends */
+        if (!folders->items[i])
+            return cli_fail(error, given, "is no folder: %s", strerror(errno));
+    }
+    return true;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -25,11 +31,12 @@ static int run(const cli_command *command, int argc, char **argv) {
     const cli_option options[] = {
         { "output", 'o', CLI_TEXT, &settings.directory, "DIR",
           "the folder to write index.html into", 0, 0, NULL, NULL },
-        { "full", 0, CLI_FLAG, &settings.full, NULL, "images as large as the paper's", 0, 0, NULL,
-          NULL },
-        { "san-miguel", 0, CLI_TEXT, &settings.san_miguel, "FILE", "the scene of figure 1", 0, 0,
-          NULL, NULL },
-        { "sponza", 0, CLI_TEXT, &settings.sponza, "FILE", "the scene of figure 5", 0, 0, NULL,
+        { "data", 0, CLI_LIST, &settings.data, "FOLDER",
+          "where the paper's scenes and materials are, or in data there (docs/paper.md); without "
+          "it the folder in LAMPION_DATA; may be repeated",
+          0, 0, NULL, NULL },
+        { "quick", 0, CLI_FLAG, &settings.quick, NULL,
+          "smaller images, for a reader who waits, instead of the paper's sizes", 0, 0, NULL,
           NULL },
         { "step", 0, CLI_LIST, &settings.steps, "NAME",
           "only this step, of: basis lights cap integral operations table san-miguel sponza "
@@ -48,8 +55,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     for (int i = 0; i < settings.steps.count; i++)
         if (!paper_has_step(settings.steps.items[i], &error))
             return cli_usage(command, "%s", error.text);
-    if (!make_absolute(&settings.san_miguel, &error) || !make_absolute(&settings.sponza, &error) ||
-        !paper_write(&settings, &failures, &error))
+    if (!find_folders(&settings.data, &error) || !paper_write(&settings, &failures, &error))
         return cli_report(&error);
     printf("%s/index.html\n", settings.directory);
     return failures ? CLI_FAILURE : CLI_OK;
@@ -60,7 +66,8 @@ const cli_command command_paper = {
     .operands = "",
     .summary = "make the paper's figures and tables again, as one page",
     .examples = "lampion paper -o out\n"
-                "lampion paper -o out --full --sponza Sponza.gltf\n",
+                "lampion paper -o out --quick\n"
+                "lampion paper -o out --data scenes --step sponza\n",
     .run = run,
     .kernels = true,
 };

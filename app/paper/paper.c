@@ -48,26 +48,6 @@ bool paper_has_step(const char *name, cli_error *error) {
 
 enum { WORDS_MAX = 64, LINE_MAX_SIZE = 16384 };
 
-bool paper_quote(const char *text, char *word, size_t size) {
-    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
-                                "_-./:=,+@%";
-    const bool quoted = text[strspn(text, plain)] || !*text;
-    size_t used = 0;
-    if (4 * strlen(text) + 3 > size)
-        return false;
-    if (quoted)
-        word[used++] = '\'';
-    for (; *text; text++) {
-        const char *const written = *text == '\'' ? "'\\''" : (const char[]) { *text, 0 };
-        memcpy(word + used, written, strlen(written));
-        used += strlen(written);
-    }
-    if (quoted)
-        word[used++] = '\'';
-    word[used] = 0;
-    return true;
-}
-
 /* Splits a line in place at the blanks that are not quoted; returns how many words it has. */
 static int split_words(char *line, char *argv[WORDS_MAX]) {
     int argc = 0;
@@ -125,22 +105,22 @@ static void introduce(paper *p) {
                "each section begins with the command that makes it alone.");
     page_text(&p->page, "Machine: %s, %ld CPUs. The paper's: Intel Xeon 2.10 GHz, RTX 2080. %s",
               cpu, sysconf(_SC_NPROCESSORS_ONLN),
-              p->options->full ? "Sizes are the paper's (<code>--full</code>)."
-                               : "Images are smaller than the paper's, to end within minutes; "
-                                 "<code>--full</code> makes them as large.");
+              p->options->quick ? "A quick page (<code>--quick</code>): images are smaller than "
+                                  "the paper's."
+                                : "Images have the paper's sizes.");
 }
 
 static void run_steps(paper *p, int *failures) {
     for (int i = 0; i < STEPS; i++) {
         cli_error error = { "" };
-        char again[64];
+        char again[128];
         const double start = timing_now();
         if (!wanted(p, i))
             continue;
         cli_progress(steps[i].name, (double)i / STEPS);
         page_section(&p->page, steps[i].title);
         snprintf(again, sizeof again, "lampion paper -o DIR --step %s%s", steps[i].name,
-                 p->options->full ? " --full" : "");
+                 p->options->quick ? " --quick" : "");
         page_command(&p->page, again);
         if (!steps[i].run(p, &error)) {
             page_failure(&p->page, error.text);
@@ -172,21 +152,34 @@ static bool write_page(paper *p, const char *sections, size_t size, cli_error *e
     return file_write_commit(&page, error);
 }
 
-bool paper_write(const paper_options *options, int *failures, cli_error *error) {
-    paper p = { .options = options };
-    *failures = 0;
-    if (mkdir(options->directory, 0777) != 0 && errno != EEXIST)
-        return cli_fail(error, options->directory, "cannot be created: %s", strerror(errno));
-    if (chdir(options->directory) != 0)
-        return cli_fail(error, options->directory, "is no folder: %s", strerror(errno));
+static bool write_all(paper *p, int *failures, cli_error *error) {
     char *sections = NULL;
     size_t size = 0;
-    p.page.html = open_memstream(&sections, &size);
-    if (!p.page.html)
+    p->page.html = open_memstream(&sections, &size);
+    if (!p->page.html)
         return cli_fail(error, NULL, "out of memory");
-    run_steps(&p, failures);
-    const bool ok = fclose(p.page.html) == 0 ? write_page(&p, sections, size, error)
-                                             : cli_fail(error, NULL, "out of memory");
+    *failures = 0;
+    run_steps(p, failures);
+    const bool ok = fclose(p->page.html) == 0 ? write_page(p, sections, size, error)
+                                              : cli_fail(error, NULL, "out of memory");
     free(sections);
+    return ok;
+}
+
+/* The working directory becomes that of the page. */
+static bool enter(const char *directory, cli_error *error) {
+    if (mkdir(directory, 0777) != 0 && errno != EEXIST)
+        return cli_fail(error, directory, "cannot be created: %s", strerror(errno));
+    return chdir(directory) == 0 || cli_fail(error, directory, "is no folder: %s", strerror(errno));
+}
+
+bool paper_write(const paper_options *options, int *failures, cli_error *error) {
+    paper *p = calloc(1, sizeof *p);
+    if (!p)
+        return cli_fail(error, NULL, "out of memory");
+    p->options = options;
+    const bool ok = paper_data_find(&options->data, &p->data, error) &&
+                    enter(options->directory, error) && write_all(p, failures, error);
+    free(p);
     return ok;
 }

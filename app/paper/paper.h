@@ -1,10 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* paper.h - the figures, tables and claims of Mézières and Paulin 2020, reproduced and put beside
- * what the paper says: one HTML page. */
+ * what the paper says: one HTML page.
+ *
+ *     paper claim page             the steps in order, the verdict, HTML
+ *     data                         the paper's scenes and materials, or what stands in for them
+ *     frame                        frames drawn and timed on the devices of this machine
+ *     scenes detail                figures 1 and 5; parts of their images, enlarged
+ *     materials materials_time     figure 6
+ *     basis lights cap operations table cost preintegrated gradients fields shadows
+ *                                  the other steps, a file each
+ *     legendre                     what the steps judge formulas by */
 #ifndef LAMPION_PAPER_H
 #define LAMPION_PAPER_H
 
 #include "app/compare/compare.h"
+#include "app/paper/data.h"
 #include "app/paper/page.h"
 #include "app/render/renderer.h"
 
@@ -12,11 +22,10 @@
 typedef int (*paper_runner)(int argc, char **argv);
 
 typedef struct paper_options {
-    const char *directory;  /* created if it is not there */
-    bool full;              /* the paper's sizes; else such as end within minutes */
-    const char *san_miguel; /* a scene file for figure 1, or NULL: builtin:atrium */
-    const char *sponza;     /* for figure 5 */
-    cli_list steps;         /* the names of those to run; none means all */
+    const char *directory; /* created if it is not there */
+    bool quick;            /* smaller images, for who waits; else the paper's sizes */
+    cli_list data;         /* folders with the paper's scenes and materials, absolute */
+    cli_list steps;        /* the names of those to run; none means all */
     paper_runner run;
 } paper_options;
 
@@ -38,7 +47,9 @@ typedef enum paper_verdict {
 
 /* What the paper says, its number, on what the verdict rests, and why it holds or not. */
 typedef struct paper_claim {
-    const char *text, *number, *basis, *why;
+    const char *text, *number;
+    char basis[160];
+    const char *why;
 } paper_claim;
 
 typedef struct paper_judged {
@@ -51,6 +62,8 @@ typedef struct paper_judged {
 
 typedef struct paper {
     const paper_options *options;
+    paper_data data;
+    char sources[PAPER_STAND_IN + 1][512]; /* what the steps have shown, by where it is from */
     paper_page page;
     paper_judged claims[PAPER_CLAIMS_MAX];
     int claim_count;
@@ -60,6 +73,9 @@ typedef struct paper {
 void paper_claim_add(paper *p, paper_verdict verdict, paper_claim claim, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 bool paper_write_verdict(paper *p, cli_error *error);
+
+/* Has the verdict name what a step shows. */
+void paper_name_source(paper *p, paper_source source, const char *name);
 
 /* A frame's time by its pixels, lights and bands. */
 double paper_nanoseconds(double milliseconds, const int size[2], int lights, int bands);
@@ -84,10 +100,6 @@ bool paper_step_gradients(paper *p, cli_error *error);
 bool paper_step_fields(paper *p, cli_error *error);
 bool paper_step_shadows(paper *p, cli_error *error);
 
-/* Writes one word of a command line, quoted if a shell would see more in it. False if it is too
- * long. */
-bool paper_quote(const char *text, char *word, size_t size);
-
 /* Runs a command line of the program, its words as paper_quote writes them, blanks between them;
  * `show` puts it on the page. */
 bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...)
@@ -95,18 +107,5 @@ bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...)
 
 /* Compares two files of images. */
 bool paper_compare(const char *pixels, const char *truth, compare_result *result, cli_error *error);
-
-/* Milliseconds of a frame's shading pass and of all of it: medians. */
-typedef struct paper_times {
-    double shade, total;
-} paper_times;
-
-/* On the device of `context`, for the scene's lights, seen by its default camera. `material`
- * is NAME=MATERIAL, as `render --material` takes it; NULL: none. */
-bool paper_time_frame(const render_device *device, const render_frame *frame, const char *material,
-                      paper_times *times, cli_error *error);
-
-/* A paragraph that names the device. */
-void paper_name_device(paper *p, const render_device *device, int width, int height);
 
 #endif

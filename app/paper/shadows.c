@@ -4,8 +4,10 @@
 #include "app/timing/timing.h"
 
 typedef struct subject {
-    const char *name, *scene;
-    int lights, size[2], samples;
+    int number; /* of the figure */
+    const char *name;
+    const paper_scene *from;
+    int size[2], samples;
 } subject;
 
 /* How an image is drawn; shown beside the ground truth or not. */
@@ -28,8 +30,8 @@ typedef struct outcome {
 
 static bool run(paper *p, const subject *s, const char *command, const char *options,
                 const char *file, cli_error *error) {
-    return paper_run(p, false, error, "%s %s --random-lights %d --seed 1 --size %dx%d %s -o %s",
-                     command, s->scene, s->lights, s->size[0], s->size[1], options, file);
+    return paper_run(p, false, error, "%s %s --size %dx%d %s -o %s", command, s->from->words,
+                     s->size[0], s->size[1], options, file);
 }
 
 /* As a .png; *exposure is the image's own where it is 0. */
@@ -79,13 +81,14 @@ static bool tabulate(paper *p, const subject subjects[2], outcome results[2][DRA
                      cli_error *error) {
     page_table table;
     if (!page_table_begin(&p->page, &table, "shadows",
-                          "lights|rays a pixel|whole command, s|relative MSE|SSIM", error))
+                          "figure|scene|rays a pixel|whole command, s|relative MSE|SSIM", error))
         return false;
     for (int i = 0; i < 2; i++)
         for (int d = 0; d < DRAWINGS; d++) {
             const double *values = results[i][d].difference.values;
-            page_table_row(&table, "%d|%s|%.2f|%.3g|%.5f", subjects[i].lights, drawings[d].label,
-                           results[i][d].seconds, values[COMPARE_RELMSE], values[COMPARE_SSIM]);
+            page_table_row(&table, "%d|%s|%s|%.2f|%.3g|%.5f", subjects[i].number,
+                           subjects[i].from->name, drawings[d].label, results[i][d].seconds,
+                           values[COMPARE_RELMSE], values[COMPARE_SSIM]);
         }
     if (!page_table_end(&table, error))
         return false;
@@ -95,19 +98,10 @@ static bool tabulate(paper *p, const subject subjects[2], outcome results[2][DRA
 }
 
 bool paper_step_shadows(paper *p, cli_error *error) {
-    const bool full = p->options->full;
-    const char *atrium = "builtin:atrium";
+    const bool quick = p->options->quick;
     const subject subjects[] = {
-        { "figure1",
-          p->options->san_miguel ? p->options->san_miguel : atrium,
-          10,
-          { full ? 1700 : 425, full ? 450 : 113 },
-          full ? 256 : 64 },
-        { "figure5",
-          p->options->sponza ? p->options->sponza : atrium,
-          30,
-          { full ? 990 : 330, full ? 498 : 166 },
-          full ? 256 : 64 },
+        { 1, "figure1", &p->data.san_miguel, { quick ? 425 : 850, quick ? 113 : 225 }, 64 },
+        { 5, "figure5", &p->data.sponza, { quick ? 330 : 660, quick ? 166 : 332 }, 64 },
     };
     outcome results[2][DRAWINGS];
     page_text(&p->page, "The paper's sums know no walls: every light reaches every surface that "

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/paper/data.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+bool paper_quote(const char *text, char *word, size_t size) {
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                                "_-./:=,+@%";
+    const bool quoted = text[strspn(text, plain)] || !*text;
+    size_t used = 0;
+    if (4 * strlen(text) + 3 > size)
+        return false;
+    if (quoted)
+        word[used++] = '\'';
+    for (; *text; text++) {
+        const char *const written = *text == '\'' ? "'\\''" : (const char[]) { *text, 0 };
+        memcpy(word + used, written, strlen(written));
+        used += strlen(written);
+    }
+    if (quoted)
+        word[used++] = '\'';
+    word[used] = 0;
+    return true;
+}
+
+/* --- files ------------------------------------------------------------------------------------ */
+
+static bool is_folder(const char *path, cli_error *error) {
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return cli_fail(error, path, "cannot be looked into: %s", strerror(errno));
+    return S_ISDIR(info.st_mode) || cli_fail(error, path, "is no folder");
+}
+
+/* The first of FOLDER/NAME, FOLDER/BELOW/NAME and both in FOLDER/data that is a file; path is "" if
+ * there is none. False if such a path is too long. */
+static bool find(const cli_list *folders, const char *below, const char *name, char path[1024],
+                 cli_error *error) {
+    const char *const between[][2] = {
+        { "", "" }, { below, "/" }, { "data", "/" }, { "data/", below }
+    };
+    for (int i = 0; i < folders->count; i++)
+        for (int k = 0; k < 4; k++) {
+            struct stat info;
+            if (snprintf(path, 1024, "%s/%s%s%s%s", folders->items[i], between[k][0], between[k][1],
+                         k == 3 ? "/" : "", name) >= 1024)
+                return cli_fail(error, folders->items[i], "is too long a name");
+            if (stat(path, &info) == 0 && S_ISREG(info.st_mode))
+                return true;
+        }
+    path[0] = 0;
+    return true;
+}
+
+/* --- scenes ----------------------------------------------------------------------------------- */
+
+/* A scene of the paper as it is looked for, and what stands in for it. */
+typedef struct wanted_scene {
+    const char *name, *credit, *folder, *file, *lights, *stand_in;
+    int light_count; /* the paper's; 0: the stand-in has its own */
+} wanted_scene;
+
+static bool join_words(paper_scene *s, cli_error *error) {
+    char file[4200], lights[4200], chosen[4300] = "";
+    if (!paper_quote(s->file, file, sizeof file) || !paper_quote(s->lights, lights, sizeof lights))
+        return cli_fail(error, s->file, "is too long a name");
+    if (s->lights[0])
+        snprintf(chosen, sizeof chosen, " --lights %s", lights);
+    else if (s->random_lights > 0)
+        snprintf(chosen, sizeof chosen, " --random-lights %d --seed 1", s->random_lights);
+    snprintf(s->words, sizeof s->words, "%s%s", file, chosen);
+    return true;
+}
+
+static bool find_scene(const cli_list *folders, const wanted_scene *wanted, paper_scene *s,
+                       cli_error *error) {
+    *s = (paper_scene) {
+        .name = wanted->name, .credit = wanted->credit, .camera = "", .overview = ""
+    };
+    if (!find(folders, wanted->folder, wanted->file, s->file, error))
+        return false;
+    s->real = s->file[0];
+    if (!s->real) {
+        s->name = wanted->stand_in;
+        s->credit = "";
+        snprintf(s->file, sizeof s->file, "%s", wanted->stand_in);
+    } else if (!find(folders, wanted->folder, wanted->lights, s->lights, error))
+        return false;
+    s->random_lights = s->lights[0] ? 0 : wanted->light_count;
+    return join_words(s, error);
+}
+
+bool paper_scene_load(const paper_scene *from, scene *world, cli_error *error) {
+    const scene_lights_options lights = { .file = from->lights[0] ? from->lights : NULL,
+                                          .random_count = from->random_lights,
+                                          .seed = from->random_lights > 0,
+                                          .hide = from->hide_lights };
+    if (!scene_load(from->file, &(scene_options) { .no_cache = false }, world, error))
+        return false;
+    if (scene_apply_lights(world, &lights, error))
+        return true;
+    scene_free(world);
+    return false;
+}
+
+/* Near the ball, whose lights stand around it; and from where they are seen too. */
+static void aim_at_ball(paper_scene *s) {
+    s->view = (scene_camera_options) { .eye = { 0.17, 0.13, 0.22 },
+                                       .target = { 0, 0.042, 0 },
+                                       .fov = 26,
+                                       .eye_given = true,
+                                       .target_given = true,
+                                       .fov_given = true };
+    s->hide_lights = true;
+    s->camera = "--hide-lights --eye 0.17,0.13,0.22 --target 0,0.042,0 --fov 26";
+    s->overview = "--eye 0.31,0.24,0.4 --target 0,0.07,0 --fov 44";
+}
+
+/* --- materials -------------------------------------------------------------------------------- */
+
+static const struct {
+    const char *letter, *name, *stand_in;
+} wanted_materials[PAPER_MATERIALS] = {
+    { "a", "paper_white", "white-paint" },
+    { "b", "ilm_solo_millennium_falcon", "silver-metallic-paint" },
+    { "c", "acrylic_felt_orange", "orange-paint" },
+    { "d", "ilm_solo_m_68", "nickel" },
+    { "e", "cc_amber_citrine", "specular-yellow-phenolic" },
+};
+
+static bool find_material(const cli_list *folders, int index, paper_material *m, cli_error *error) {
+    static const char *const endings[] = {
+        [PAPER_MEASURED] = "_rgb.bsdf", [PAPER_FIT] = ".binary"
+    };
+    const char *const name = wanted_materials[index].name;
+    char path[1024] = "", file[96];
+    *m = (paper_material) { .letter = wanted_materials[index].letter, .name = name };
+    for (m->source = PAPER_MEASURED; m->source < PAPER_STAND_IN; m->source++) {
+        snprintf(file, sizeof file, "%s%s", name, endings[m->source]);
+        if (!find(folders, "rgl_neural", file, path, error))
+            return false;
+        if (path[0])
+            break;
+    }
+    if (m->source == PAPER_STAND_IN) {
+        snprintf(m->value, sizeof m->value, "test_material=sgd:%s",
+                 wanted_materials[index].stand_in);
+        snprintf(m->label, sizeof m->label, "%s, a stand-in", wanted_materials[index].stand_in);
+    } else {
+        snprintf(m->value, sizeof m->value, "test_material=%s", path);
+        snprintf(m->label, sizeof m->label, "%s%s", name,
+                 m->source == PAPER_FIT ? ", fit" : ", measured");
+    }
+    return paper_quote(m->value, m->word, sizeof m->word) ||
+           cli_fail(error, path, "is too long a name");
+}
+
+/* --- all of it -------------------------------------------------------------------------------- */
+
+static const wanted_scene san_miguel = {
+    .name = "San Miguel",
+    .credit = "San Miguel © Guillermo M. Leal LLaguno (www.evvisual.com), CC BY 3.0, converted and "
+              "changed.",
+    .folder = "san_miguel",
+    .file = "san_miguel.gltf",
+    .lights = "san_miguel_lights.json",
+    .stand_in = "builtin:atrium",
+    .light_count = 10,
+};
+
+static const wanted_scene sponza = {
+    .name = "Sponza",
+    .credit = "Crytek Sponza © 2010 Frank Meinl, Crytek, after Marko Dabrovic. What licence it has "
+              "is told in contradictory ways: these images are for your eyes.",
+    .folder = "sponza",
+    .file = "sponza.gltf",
+    .lights = "sponza_lights.json",
+    .stand_in = "builtin:atrium",
+    .light_count = 30,
+};
+
+static const wanted_scene ball = {
+    .name = "the shader ball",
+    .credit = "StandardShaderBall © Chris Rydalch, André Mazzone, Thomas Anagnostou / ASWF USD-WG, "
+              "CC BY 4.0, converted.",
+    .folder = "shaderball",
+    .file = "shaderball_scene.gltf",
+    .lights = "ball_lights.json",
+    .stand_in = "builtin:ball",
+};
+
+/* Its lights lie beside the materials. Without them the built-in ball, which has its own. */
+static bool find_ball(const cli_list *folders, paper_scene *s, cli_error *error) {
+    static const cli_list nowhere = { .count = 0 };
+    if (!find_scene(folders, &ball, s, error))
+        return false;
+    if (s->real && find(folders, "rgl_neural", ball.lights, s->lights, error) && s->lights[0]) {
+        aim_at_ball(s);
+        return join_words(s, error);
+    }
+    return find_scene(&nowhere, &ball, s, error);
+}
+
+bool paper_data_find(const cli_list *folders, paper_data *data, cli_error *error) {
+    for (int i = 0; i < folders->count; i++)
+        if (!is_folder(folders->items[i], error))
+            return false;
+    for (int i = 0; i < PAPER_MATERIALS; i++)
+        if (!find_material(folders, i, &data->materials[i], error))
+            return false;
+    return find_scene(folders, &san_miguel, &data->san_miguel, error) &&
+           find_scene(folders, &sponza, &data->sponza, error) &&
+           find_ball(folders, &data->ball, error);
+}
