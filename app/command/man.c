@@ -6,6 +6,8 @@ static const char *const environment[][2] = {
     { "XDG_CACHE_HOME", "The cache is the folder lampion in it, or in ~/.cache if it is not set." },
     { "LAMPION_CACHE_MIB",
       "The most that the cache may hold, in MiB; what was not used for longest is removed first." },
+    { "LAMPION_DATA",
+      "The folder of the scenes and materials of the paper that lampion paper shows." },
     { "LAMPION_GL_DEBUG", "If it is fatal, OpenGL checks every call and the first complaint ends "
                           "the program." },
     { "TERM", "Progress is shown on terminals alone, and on none that is dumb. There are no "

@@ -77,11 +77,16 @@ static bool join_words(paper_scene *s, cli_error *error) {
 
 static bool find_scene(const cli_list *folders, const wanted_scene *wanted, paper_scene *s,
                        cli_error *error) {
+    static const char *const endings[] = { ".gltf", ".glb", ".obj" };
     *s = (paper_scene) {
         .name = wanted->name, .credit = wanted->credit, .camera = "", .overview = ""
     };
-    if (!find(folders, wanted->folder, wanted->file, s->file, error))
-        return false;
+    for (size_t i = 0; i < sizeof endings / sizeof *endings && !s->file[0]; i++) {
+        char file[64];
+        snprintf(file, sizeof file, "%s%s", wanted->file, endings[i]);
+        if (!find(folders, wanted->folder, file, s->file, error))
+            return false;
+    }
     s->real = s->file[0];
     if (!s->real) {
         s->name = wanted->stand_in;
@@ -148,11 +153,11 @@ static bool find_material(const cli_list *folders, int index, paper_material *m,
     if (m->source == PAPER_STAND_IN) {
         snprintf(m->value, sizeof m->value, "test_material=sgd:%s",
                  wanted_materials[index].stand_in);
-        snprintf(m->label, sizeof m->label, "%s, a stand-in", wanted_materials[index].stand_in);
+        snprintf(m->label, sizeof m->label, "%s (stand-in)", wanted_materials[index].stand_in);
     } else {
         snprintf(m->value, sizeof m->value, "test_material=%s", path);
         snprintf(m->label, sizeof m->label, "%s%s", name,
-                 m->source == PAPER_FIT ? ", fit" : ", measured");
+                 m->source == PAPER_FIT ? " (fit)" : " (measured)");
     }
     return paper_quote(m->value, m->word, sizeof m->word) ||
            cli_fail(error, path, "is too long a name");
@@ -165,7 +170,7 @@ static const wanted_scene san_miguel = {
     .credit = "San Miguel © Guillermo M. Leal LLaguno (www.evvisual.com), CC BY 3.0, converted and "
               "changed.",
     .folder = "san_miguel",
-    .file = "san_miguel.gltf",
+    .file = "san_miguel",
     .lights = "san_miguel_lights.json",
     .stand_in = "builtin:atrium",
     .light_count = 10,
@@ -173,10 +178,10 @@ static const wanted_scene san_miguel = {
 
 static const wanted_scene sponza = {
     .name = "Sponza",
-    .credit = "Crytek Sponza © 2010 Frank Meinl, Crytek, after Marko Dabrovic. What licence it has "
-              "is told in contradictory ways: these images are for your eyes.",
+    .credit = "Crytek Sponza © 2010 Frank Meinl, Crytek, after Marko Dabrovic. Its sources "
+              "contradict each other about its license: do not publish these images.",
     .folder = "sponza",
-    .file = "sponza.gltf",
+    .file = "sponza",
     .lights = "sponza_lights.json",
     .stand_in = "builtin:atrium",
     .light_count = 30,
@@ -187,7 +192,7 @@ static const wanted_scene ball = {
     .credit = "StandardShaderBall © Chris Rydalch, André Mazzone, Thomas Anagnostou / ASWF USD-WG, "
               "CC BY 4.0, converted.",
     .folder = "shaderball",
-    .file = "shaderball_scene.gltf",
+    .file = "shaderball_scene",
     .lights = "ball_lights.json",
     .stand_in = "builtin:ball",
 };

@@ -37,8 +37,8 @@ typedef struct paper_times {
 /* A frame as the paper filters it; camera and lights are the scene's. */
 render_frame paper_frame(const int size[2], method_kind method, int bands);
 
-/* `assignment`
- * is as `render --material` takes it; NULL: none. `pixels` is created. */
+/* `assignment` is NAME=MATERIAL, as `render --material` takes it; NULL: none. `pixels` is created.
+ */
 bool paper_draw(const paper_devices *devices, device_kind device, const render_frame *frame,
                 const char *assignment, image *pixels, cli_error *error);
 bool paper_time(const paper_devices *devices, device_kind device, const render_frame *frame,

@@ -110,18 +110,27 @@ static void introduce(paper *p) {
                                 : "Images have the paper's sizes.");
 }
 
+/* What makes a step alone. */
+static void show_command(paper *p, const char *step) {
+    const cli_list *folders = &p->options->data;
+    char line[LINE_MAX_SIZE], word[4200];
+    int used = snprintf(line, sizeof line, "lampion paper -o DIR --step %s%s", step,
+                        p->options->quick ? " --quick" : "");
+    for (int i = 0; i < folders->count && used < LINE_MAX_SIZE; i++)
+        if (paper_quote(folders->items[i], word, sizeof word))
+            used += snprintf(line + used, sizeof line - (size_t)used, " --data %s", word);
+    page_command(&p->page, line);
+}
+
 static void run_steps(paper *p, int *failures) {
     for (int i = 0; i < STEPS; i++) {
         cli_error error = { "" };
-        char again[128];
         const double start = timing_now();
         if (!wanted(p, i))
             continue;
         cli_progress(steps[i].name, (double)i / STEPS);
         page_section(&p->page, steps[i].title);
-        snprintf(again, sizeof again, "lampion paper -o DIR --step %s%s", steps[i].name,
-                 p->options->quick ? " --quick" : "");
-        page_command(&p->page, again);
+        show_command(p, steps[i].name);
         if (!steps[i].run(p, &error)) {
             page_failure(&p->page, error.text);
             fprintf(stderr, "lampion: %s: %s\n", steps[i].name, error.text);

@@ -100,8 +100,16 @@ static bool tabulate(paper *p, const subject subjects[2], outcome results[2][DRA
 bool paper_step_shadows(paper *p, cli_error *error) {
     const bool quick = p->options->quick;
     const subject subjects[] = {
-        { 1, "figure1", &p->data.san_miguel, { quick ? 425 : 850, quick ? 113 : 225 }, 64 },
-        { 5, "figure5", &p->data.sponza, { quick ? 330 : 660, quick ? 166 : 332 }, 64 },
+        { 1,
+          "figure1",
+          &p->data.san_miguel,
+          { quick ? 425 : 850, quick ? 113 : 225 },
+          quick ? 64 : 32 },
+        { 5,
+          "figure5",
+          &p->data.sponza,
+          { quick ? 330 : 660, quick ? 166 : 332 },
+          quick ? 64 : 32 },
     };
     outcome results[2][DRAWINGS];
     page_text(&p->page, "The paper's sums know no walls: every light reaches every surface that "

@@ -47,7 +47,7 @@ has src/kernels/kernels.h lmp_kernels
 has app/image/tone.c image_tones
 
 # Files of code that have the trace of a section only because they use what it adds.
-users='app/bench/inputs.c app/paper/materials.c app/paper/scenes.c app/scoreboard/lampion.c
+users='app/bench/inputs.c app/paper/frame.c app/paper/materials.c app/paper/materials_time.c app/paper/scenes.c app/scoreboard/lampion.c
 src/shade/layers.c shaders/coefficients.glsl shaders/fibers.comp shaders/lampion.glsl shaders/paper.frag'
 
 # unnamed FILE: for each trace in FILE, the files of code that have it, where the section does not
