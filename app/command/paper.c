@@ -31,7 +31,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     const cli_option options[] = {
         { "output", 'o', CLI_TEXT, &settings.directory, "DIR",
           "the folder to write index.html into", 0, 0, NULL, NULL },
-        { "data", 0, CLI_LIST, &settings.data, "FOLDER",
+        { "data", 0, CLI_LIST, &settings.data, "DIR",
           "where the paper's scenes and materials are, or in data there (docs/paper.md); without "
           "it the folder in LAMPION_DATA; may be repeated",
           0, 0, NULL, NULL },

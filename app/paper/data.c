@@ -163,6 +163,22 @@ static bool find_material(const cli_list *folders, int index, paper_material *m,
            cli_fail(error, path, "is too long a name");
 }
 
+void paper_name_materials(const paper_data *data, int first, int last, char *names, size_t size) {
+    static const char *const texts[] = { [PAPER_MEASURED] = "measurements",
+                                         [PAPER_FIT] = "neural fits",
+                                         [PAPER_STAND_IN] = "stand-ins" };
+    int used = 0;
+    names[0] = 0;
+    for (int source = 0; source <= PAPER_STAND_IN; source++)
+        for (int i = first; i <= last; i++)
+            if ((int)data->materials[i].source == source) {
+                used += snprintf(names + used, size - (size_t)used, "%s%s", used ? ", " : "",
+                                 texts[source]);
+                break;
+            }
+    snprintf(names + used, size - (size_t)used, " on %s", data->ball.name);
+}
+
 /* --- all of it -------------------------------------------------------------------------------- */
 
 static const wanted_scene san_miguel = {

@@ -44,6 +44,9 @@ typedef struct paper_data {
  * a name is too long. */
 bool paper_data_find(const cli_list *folders, paper_data *data, cli_error *error);
 
+/* What the materials from first to last are, and on what ball: at most 128 bytes. */
+void paper_name_materials(const paper_data *data, int first, int last, char *names, size_t size);
+
 /* The scene with its lights. */
 bool paper_scene_load(const paper_scene *from, scene *world, cli_error *error);
 

@@ -27,6 +27,7 @@ typedef struct paper_method {
     device_kind device;
     method_kind method;
     const char *name;
+    bool hardware; /* not where OpenGL is software */
 } paper_method;
 
 /* Milliseconds of a frame's shading and of all of it: medians. */

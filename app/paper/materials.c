@@ -9,9 +9,6 @@
 /* Samples of the ground truth go where a highlight needs them. */
 #define SAMPLING "--spp 2048 --error 0.05"
 
-const int materials_bands[MATERIALS_COUNTS] = { 10, 20, 100 };
-const int materials_size[2] = { 600, 816 };
-
 /* What a pixel of the mask sees. */
 enum { SEES_OTHER, SEES_GRAZING, SEES_STEEP }; /* the material, from above 70° or within */
 
@@ -19,21 +16,6 @@ enum { SEES_OTHER, SEES_GRAZING, SEES_STEEP }; /* the material, from above 70° 
  * out, whose tables take most of the time. */
 static bool has_bands(const paper *p, int material, int count) {
     return materials_bands[count] < 100 || (material >= 3 && !p->options->quick);
-}
-
-/* What the materials from first to last are, and where they are shown. */
-void materials_name(const paper *p, int first, int last, char *names, size_t size) {
-    bool fits = false, stand_ins = false;
-    for (int i = first; i <= last; i++) {
-        fits = fits || p->data.materials[i].source == PAPER_FIT;
-        stand_ins = stand_ins || p->data.materials[i].source == PAPER_STAND_IN;
-    }
-    snprintf(names, size, "%s on %s",
-             fits && stand_ins ? "fits and stand-ins"
-             : fits            ? "neural fits"
-             : stand_ins       ? "stand-ins"
-                               : "the measurements",
-             p->data.ball.name);
 }
 
 /* --- judged ----------------------------------------------------------------------------------- */
@@ -192,7 +174,7 @@ static void claim_few(paper *p, const materials_figure *f) {
                                  "pixels seen from within 70°; the lights' angles are not told "
                                  "apart" };
     bool enough = true;
-    materials_name(p, 0, 2, claim.basis, sizeof claim.basis);
+    paper_name_materials(&p->data, 0, 2, claim.basis, sizeof claim.basis);
     for (int i = 0; i < 3; i++)
         enough = enough && is_enough(f->errors[i][0].steep, f->noise[i].steep);
     paper_claim_add(p, enough ? PAPER_HOLDS : PAPER_FAILS, claim,
@@ -207,7 +189,7 @@ static void claim_many(paper *p, const materials_figure *f) {
                           .number = "an estimate",
                           .why = "judged by a relative MSE of 2 % against the ground truth" };
     bool lacking = true;
-    materials_name(p, 3, 4, claim.basis, sizeof claim.basis);
+    paper_name_materials(&p->data, 3, 4, claim.basis, sizeof claim.basis);
     for (int i = 3; i < PAPER_MATERIALS; i++)
         lacking = lacking && !is_enough(f->errors[i][last].all, f->noise[i].all);
     paper_claim_add(p, lacking ? PAPER_HOLDS : PAPER_FAILS, claim,

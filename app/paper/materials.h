@@ -7,8 +7,8 @@
 #include "app/paper/frame.h"
 
 enum { MATERIALS_COUNTS = 3 };
-extern const int materials_bands[MATERIALS_COUNTS];
-extern const int materials_size[2]; /* of the paper's images */
+static const int materials_bands[MATERIALS_COUNTS] = { 10, 20, 100 };
+static const int materials_size[2] = { 600, 816 }; /* of the paper's images */
 
 /* Relative mean squared errors over the pixels that show the material, and over those that show it
  * from within 70° of its normal. */
@@ -23,9 +23,6 @@ typedef struct materials_figure {
     unsigned char *mask; /* of judged_size: what each pixel sees */
     materials_errors errors[PAPER_MATERIALS][MATERIALS_COUNTS], noise[PAPER_MATERIALS];
 } materials_figure;
-
-/* What the materials from first to last are, and where they are shown. */
-void materials_name(const paper *p, int first, int last, char *names, size_t size);
 
 /* A table of times, and what is claimed of them. */
 bool materials_write_times(paper *p, const materials_figure *f, cli_error *error);

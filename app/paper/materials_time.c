@@ -3,8 +3,8 @@
 #include "app/paper/materials.h"
 
 static const paper_method methods[] = {
-    { DEVICE_CPU, METHOD_ZONAL, "library: coefficients" },
-    { DEVICE_GPU, METHOD_COEFFICIENTS, "library: coefficients" },
+    { DEVICE_CPU, METHOD_ZONAL, "library: coefficients", false },
+    { DEVICE_GPU, METHOD_COEFFICIENTS, "library: coefficients", false },
 };
 enum { METHODS_TIMED_HERE = sizeof methods / sizeof *methods };
 
@@ -54,7 +54,7 @@ static bool time_all(const paper *p, const materials_figure *f, row *rows, int *
 static void claim_time(paper *p, const materials_figure *f, const row *rows, int count) {
     paper_fastest slowest = { .by = NULL };
     char on[128];
-    materials_name(p, 1, 4, on, sizeof on);
+    paper_name_materials(&p->data, 1, 4, on, sizeof on);
     for (int i = 1; i < PAPER_MATERIALS; i++) {
         paper_fastest own = { .by = NULL };
         for (int k = 0; k < count; k++) {

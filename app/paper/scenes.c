@@ -29,17 +29,17 @@ typedef struct outcome {
     paper_times times[SHOWN_MAX][METHODS_MAX];
 } outcome;
 
-/* The paper's own shader beside the library's methods; OpenGL in software does without the last. */
+/* The paper's own shader beside the library's methods. */
 static const paper_method methods[METHODS_MAX] = {
-    { DEVICE_CPU, METHOD_ZONAL, "library: zonal" },
-    { DEVICE_GPU, METHOD_PAPER, "the paper's shader" },
-    { DEVICE_GPU, METHOD_COEFFICIENTS, "library: coefficients" },
-    { DEVICE_GPU, METHOD_ZONAL, "library: zonal" },
+    { DEVICE_CPU, METHOD_ZONAL, "library: zonal", false },
+    { DEVICE_GPU, METHOD_PAPER, "the paper's shader", false },
+    { DEVICE_GPU, METHOD_COEFFICIENTS, "library: coefficients", false },
+    { DEVICE_GPU, METHOD_ZONAL, "library: zonal", true },
 };
 
 static bool is_timed(const paper_devices *devices, const paper_method *method) {
     return method->device == DEVICE_CPU ||
-           (devices->has_gl && !(devices->gl.gl.software && method->method == METHOD_ZONAL));
+           (devices->has_gl && !(devices->gl.gl.software && method->hardware));
 }
 
 /* --- measured --------------------------------------------------------------------------------- */

@@ -50,6 +50,6 @@ for said in '(c) acrylic_felt_orange (fit): ground truth' 'On fits, which are no
     'A quick page leaves out 100 bands'; do
     grep -qF "$said" "$WORK/materials/index.html" || fail "the page does not say: $said"
 done
-grep -q '^10 bands are enough.*fits and stand-ins on builtin:ball' "$WORK/materials/verdict.csv" ||
+grep -q '^10 bands are enough.*measurements, neural fits, stand-ins on builtin:ball' "$WORK/materials/verdict.csv" ||
     fail "the verdict hides what it rests on: $(cat "$WORK/materials/verdict.csv")"
 ! grep -q 'more than a hundred bands' "$WORK/materials/verdict.csv" || fail "a claim of bands that a quick page leaves out"

@@ -98,6 +98,7 @@ completes 'lampion render --window=ha' 'hanning' # as readline wants it, what fo
 completes 'lampion render builtin:at' 'atrium'
 completes 'lampion render ' 'builtin:atrium builtin:ball builtin:balls folder scene.gltf with\ blank.png'
 completes 'lampion paper -o ' 'folder'
+completes 'lampion paper --data ' 'folder'
 completes 'lampion brdf info sce' 'scene.gltf'
 # a name is no command, whatever it is and begins with: quoted here, or by readline where that does it well
 hostile='hole$(touch pwned).gltf' quoted='hole\$\(touch\ pwned\).gltf'
