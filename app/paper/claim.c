@@ -10,6 +10,7 @@ static const char *const verdicts[] = {
     [PAPER_FAILS] = "does not hold",
     [PAPER_IMPRECISE] = "not as printed in single precision",
     [PAPER_ELSEWHERE] = "not on this device",
+    [PAPER_UNLIKE] = "not on stand-ins",
 };
 
 void paper_claim_add(paper *p, paper_verdict verdict, paper_claim claim, const char *format, ...) {

@@ -42,7 +42,8 @@ typedef enum paper_verdict {
     PAPER_HOLDS,
     PAPER_FAILS,
     PAPER_IMPRECISE, /* the formula as printed fails in single precision alone */
-    PAPER_ELSEWHERE  /* the paper measured on a GPU what a CPU does here */
+    PAPER_ELSEWHERE, /* the paper measured on a GPU what a CPU does here */
+    PAPER_UNLIKE     /* the paper says it of a scene or material that something stands in for */
 } paper_verdict;
 
 /* What the paper says, its number, on what the verdict rests, and why it holds or not. */

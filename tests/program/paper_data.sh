@@ -34,7 +34,7 @@ done
 # what the caption of figure 5 says of more bands follows from the figures beside it
 set -- $(sed -n 's/^colors show more by 8 bands.*saturation \([0-9.]*\) and \([0-9.]*\), truth.*",\([a-z]*\).*/\1 \2 \3/p' "$WORK/stand_in/verdict.csv")
 [ $# = 3 ] || fail "nothing is said of colors: $(cat "$WORK/stand_in/verdict.csv")"
-[ "$(awk -v a="$1" -v b="$2" 'BEGIN { print (b >= a ? "holds" : "does") }')" = "$3" ] || fail "colors $1 and $2: $3"
+[ "$(awk -v a="$1" -v b="$2" 'BEGIN { print (b >= a ? "holds" : "not") }')" = "$3" ] || fail "colors $1 and $2: $3"
 
 # materials: NAME_rgb.bsdf is a measurement, NAME.binary a fit, and of many folders the first that has one counts
 mkdir "$WORK/more/rgl_neural"

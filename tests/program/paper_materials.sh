@@ -9,7 +9,7 @@ unset LAMPION_DATA
 ! grep -q 'class="failed"' "$WORK/materials/index.html" || fail "the step of materials failed"
 # verdict HOLDS TEXT: that of the claim
 judged() {
-    told="does not hold"
+    told="not on stand-ins"
     [ "$1" = 0 ] || told=holds
     grep -q "^\"\?$2.*,$told," "$WORK/materials/verdict.csv" ||
         fail "not \"$told\": $(cat "$WORK/materials/verdict.csv" "$WORK/materials/figure6.csv")"
