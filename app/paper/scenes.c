@@ -9,7 +9,7 @@ enum { BANDS_MAX = 8, SHOWN_MAX = 2, METHODS_MAX = 4, DETAILS_MAX = 2, MOST = 10
 
 /* A figure of the paper. */
 typedef struct figure {
-    const char *name, *number; /* of files; "Fig. 1" */
+    const char *name; /* of files */
     const paper_scene *from;
     int size[2], judged_size[2], paper_size[2]; /* the errors' images are smaller */
     int bands[BANDS_MAX];                       /* to compare, the most last, 0-terminated */
