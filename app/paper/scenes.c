@@ -368,7 +368,7 @@ bool paper_step_sponza(paper *p, cli_error *error) {
                        .claim = { "30 lights on 5 bands in real time",
                                   "30 lights on 8 bands in real time" },
                        .said = { "4.9 ms at 1980×995: 0.0166 ns", "8.3 ms at 1980×995: 0.0176 ns" },
-                       .stops = real ? -1.8f : 0.0f,
+                       .stops = real ? -1.2f : 0.0f,
                        .details = { { "floor", 0.42, real ? 0.64 : 0.78, 0.175, 0.175 },
                                     { "curtain", 0.20, 0.38, 0.125, 0.25 } },
                        .detail_count = real ? 2 : 1,
