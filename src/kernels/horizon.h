@@ -75,7 +75,7 @@ LMP_INLINE horizon_float lmp_horizon_between(horizon_float u, horizon_float t) {
 static inline float lmp_horizon_cosine(float u, float t) {
     if (u * u < t * (2 - t))
         return lmp_horizon_between(u, t);
-    return u > 0 ? u : 0;
+    return u <= 0 ? 0 : u; /* NaN stays */
 }
 #endif
 

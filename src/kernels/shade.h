@@ -114,14 +114,15 @@ LMP_INLINE vf shade_dot(const vf a[3], const cap_lanes *cap) {
  * registers. */
 static LMP_NOINLINE vf shade_horizon(vf u, vf t) {
     return vf_select_less(u * u, t * (vf_set(2) - t), lmp_horizon_between(u, t),
-                          vf_max(u, vf_set(0)));
+                          vf_max(vf_set(0), u));
 }
 
-/* f of horizon.h: the cosine u of a cap's axis with the normal, clipped by the horizon. */
+/* f of horizon.h: the cosine u of a cap's axis with the normal, clipped by the horizon. NaN stays.
+ */
 LMP_INLINE vf shade_clipped(vf u, vf t) {
     if (__builtin_expect(vf_any_less(u * u, t * (vf_set(2) - t)), 0))
         return shade_horizon(u, t);
-    return vf_max(u, vf_set(0));
+    return vf_max(vf_set(0), u);
 }
 
 /* Adds a response to what a lobe of a block of surfaces has accumulated: red, green, blue. By its

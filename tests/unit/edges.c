@@ -107,7 +107,9 @@ static void shading_keeps_nan(void **state) {
         return;
     }
     const lmp_vec3 up = { 0, 0, 1 }, nowhere = { NAN, 0, 1 };
-    const lmp_material material = { .diffuse = { 1, 1, 1 }, .exponent = 5 };
+    const lmp_material material = { .diffuse = { 1, 1, 1 },
+                                    .specular = { 1, 1, 1 },
+                                    .exponent = 5 };
     const lmp_light light = { .position = { 0, 0, 4 }, .radius = 1, .radiance = { 1, 1, 1 } };
     for (int method = 0; method <= LMP_SHADE_COEFFICIENTS; method++)
         for (int member = 0; member < 3; member++) {
