@@ -79,6 +79,21 @@ static inline render_frame frame_of(const scene *world, int width, int height) {
                             .light_count = world->light_count };
 }
 
+/* Lights from number `first` on to positions within the scene's bounds, whatever `--random-lights`
+ * does: among what they light. */
+static inline void stand_within(scene *world, size_t first) {
+    uint32_t random = 7;
+    for (size_t i = first; i < world->light_count; i++) {
+        float at[3];
+        for (int k = 0; k < 3; k++) {
+            random = random * 1664525u + 1013904223u;
+            const float part = 0.1f + 0.8f * (float)(random >> 8) / (float)(1 << 24);
+            at[k] = world->minimum[k] + part * (world->maximum[k] - world->minimum[k]);
+        }
+        world->lights[i].emitter.position = (lmp_vec3) { at[0], at[1], at[2] };
+    }
+}
+
 static inline image render_image(gpu_renderer *renderer, const render_frame *frame) {
     cli_error error = { "" };
     image pixels;

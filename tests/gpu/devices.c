@@ -62,6 +62,7 @@ static void open_fixture(fixture *s, const char *name) {
     expect(scene_apply_lights(&s->world, &(scene_lights_options) { .random_count = 20, .seed = 7 },
                               &error),
            &error);
+    stand_within(&s->world, 0);
     for (int i = 0; i < KINDS; i++)
         s->world.lights[s->world.light_count++].emitter = one_of_each_kind[i];
     s->renderer = open_renderer(&s->world);

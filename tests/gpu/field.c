@@ -42,7 +42,7 @@ static void every_kind_of_light_is_drawn(void **state) {
     gpu_renderer *renderer = open_renderer(&world);
     render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     shade_field *field = open_field(frame.bands, false);
-    differ_from_sums(renderer, &frame, field, 0.015, 0.003);
+    differ_from_sums(renderer, &frame, field, 0.012, 0.002);
     shade_field_destroy(field);
     gpu_renderer_destroy(renderer);
     scene_free(&world);

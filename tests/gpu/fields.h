@@ -19,6 +19,7 @@ static inline void open_world(const char *name, int lights) {
                &world, &(scene_lights_options) { .random_count = lights, .seed = 7, .hide = true },
                &error),
            &error);
+    stand_within(&world, 0);
 }
 
 static inline shade_field *open_field_within(int bands, bool moves, size_t bytes_max) {

@@ -43,7 +43,7 @@ if [ $sanitized = no ]; then
         if within $middle "$PROGRAM" compare "$WORK/one.png" "$WORK/one.png"; then least=$middle; else low=$middle; fi
     done
     # 1024² pixels take 80 bytes each, as the help says, and not twice as much
-    "$PROGRAM" compare --help | tr -s ' \n' ' ' | grep -q 'take 80 bytes a pixel' || fail "the help does not say what a pixel takes"
+    "$PROGRAM" compare --help | tr -s ' \n' ' ' | grep -q 'take 80 bytes per pixel' || fail "the help does not say what a pixel takes"
     png 1024 1024 "$WORK/many.png"
     within $((least + 80 * 1024 + 8192)) "$PROGRAM" compare "$WORK/many.png" "$WORK/many.png" ||
         fail "more than 80 bytes a pixel: $(cat "$WORK/err")"

@@ -134,7 +134,7 @@ static void forty_scenes_show_what_is_lit(void **state) {
             for (size_t i = 0; i < count; i++)
                 burnt += lit[i] > 2;
             const double median = count ? (double)lit[count / 2] : 0;
-            if (!(count > 50 && median >= 0.05 && median <= 0.25 &&
+            if (!(count > 50 && median >= 0.025 && median <= 0.25 &&
                   (double)burnt <= 0.05 * (double)count))
                 fail_msg("shape %d, lamps %d: %zu lit, median %.3f, %zu burnt out", kind, lamps,
                          count, median, burnt);

@@ -15,8 +15,9 @@ for method in zonal coefficients; do
     "$PROGRAM" render builtin:balls $small --method $method -o "$WORK/$method.exr"
     "$PROGRAM" render builtin:balls --size 16x9 --bands 128 --device cpu --method $method -o "$WORK/cpu-$method.exr"
 done
-"$PROGRAM" compare "$WORK/cpu-zonal.exr" "$WORK/cpu-coefficients.exr" --fail-above rmse=1e-6 ||
-    fail "the CPU's images differ by more than rounding"
+# by rounding, and by what 128 bands lack of the diffuse lobe, of which zonal sums have all
+"$PROGRAM" compare "$WORK/cpu-zonal.exr" "$WORK/cpu-coefficients.exr" --fail-above rmse=5e-5 ||
+    fail "the CPU's images differ by more than 128 bands do"
 
 # what is unlit has the colors of its vertices, on every device and in the reference
 cat >"$WORK/unlit.gltf" <<'END'
