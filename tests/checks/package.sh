@@ -86,7 +86,7 @@ LD_LIBRARY_PATH=$lib "$WORK/shared" >"$WORK/shared.txt"
 mkdir "$WORK/reader"
 own_scene "$WORK/reader/scene.gltf"
 code_blocks README.md json >"$WORK/reader/lights.json"
-code_blocks README.md sh | grep '^lampion.* scene\.' | # small: the last --size counts
+code_blocks README.md sh | grep '^lampion.* scene\.' | grep -v '^lampion view' | # small: the last --size counts
     sed 's/ lights.json .*/& --size 160x90/' >"$WORK/reader/commands"
 [ "$(wc -l <"$WORK/reader/commands")" -ge 6 ] || fail "the README's way is not there"
 (cd "$WORK/reader" && PATH=$root/usr/bin:$PATH XDG_CACHE_HOME=$WORK/cache sh -eu commands >log 2>&1) ||

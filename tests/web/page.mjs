@@ -69,7 +69,7 @@ async function draw() {
 async function choose() {
     await browser.size(320, 180);
     await open('time=0&scale=1&closed&lights=100&bands=5&method=coefficients&window=none');
-    const size = ['--size', '320x180', '--keep-lights', '--random-lights', '70', '--seed', '1'];
+    const size = ['--size', '320x180', '--keep-lights', '--random-lights', '70', '--seed', '1', '--method', 'coefficients'];
     const hundred = await rendered(...size, '--bands', '5', '--window', 'none');
     assert.ok(hundred <= edges, `100 lights by coefficients: ${hundred}`);
     assert.ok(await rendered(...size, '--bands', '6', '--window', 'none') > 2 * edges, 'another number of bands is seen');
