@@ -78,12 +78,16 @@ static bool make(const field_options *o, const char *name, cli_error *error) {
         settings.rays = 0;
     if (!scene_load(name, &o->load, &world, error))
         return false;
-    const bool ok = place_grid(o, &world, &settings.grid, error) &&
-                    scene_apply_lights(&world, &o->lights, error) &&
-                    environment_open(&o->environment, &world, &around, error) &&
-                    environment_project(&around, settings.bands, error) &&
-                    (volume_file_of(o->output.path) == VOLUME_LMPF ? write_field : write_volume)(
-                        o, &world, &around, &settings, error);
+    bool ok = place_grid(o, &world, &settings.grid, error) &&
+              scene_apply_lights(&world, &o->lights, error) &&
+              environment_open(&o->environment, &world, &around, error) &&
+              environment_extract_suns(&around, error) &&
+              environment_project(&around, settings.bands, error);
+    if (ok) {
+        world.light_count = environment_add_suns(&around, world.lights, world.light_count);
+        ok = (volume_file_of(o->output.path) == VOLUME_LMPF ? write_field : write_volume)(
+            o, &world, &around, &settings, error);
+    }
     environment_free(&around);
     scene_free(&world);
     return ok;

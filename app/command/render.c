@@ -232,11 +232,14 @@ static bool open_job(const char *name, render_job *j, cli_error *error) {
     if (!image_check_path(path, error) || !scene_load(name, &o->load, &j->world, error) ||
         !scene_apply_lights(&j->world, &o->lights, error) ||
         !environment_open(&o->environment, &j->world, &j->around, error) ||
+        !environment_extract_suns(&j->around, error) ||
         !environment_project(&j->around, o->bands, error) ||
         !animation_open(o->animate, &j->world, &j->path, error) ||
         !scene_place_camera(&j->world, &o->camera, o->size, &j->frame.camera, error) ||
         !settle_device(j, error))
         return false;
+    /* Behind the scene's own lights, which paths name by their numbers. */
+    j->world.light_count = environment_add_suns(&j->around, j->world.lights, j->world.light_count);
     j->renderer = renderer_create(&j->device, error);
     if (j->renderer)
         renderer_set_environment(j->renderer, &j->around);

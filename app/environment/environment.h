@@ -38,6 +38,8 @@ typedef struct environment_options {
         .minimum = 0, .maximum = ENVIRONMENT_STRENGTH_MAX                                          \
     }
 
+#define ENVIRONMENT_SUNS_MAX 8
+
 /* Both images are latitude-longitude, as lmp_latlong has them. Zero: there is none. */
 typedef struct environment {
     image light;    /* its radiance */
@@ -46,6 +48,8 @@ typedef struct environment {
     bool studio;    /* it is the built-in one */
     float *sh;      /* its coefficients, lmp_environment, of `bands` bands */
     int bands;
+    scene_light suns[ENVIRONMENT_SUNS_MAX]; /* what environment_extract_suns took from `light` */
+    int sun_count;
 } environment;
 
 /* Whether a name is that of a file, not of what is built in. */
@@ -62,6 +66,13 @@ void environment_free(environment *e);
 static inline bool environment_shines(const environment *e) {
     return e && e->light.rgb;
 }
+
+/* Takes small bright parts of a file's image, such as a sun, out of its light, and makes hidden
+ * caps of them: bands would ring, caps are exact and cast shadows. The backdrop keeps them. */
+bool environment_extract_suns(environment *e, cli_error *error);
+
+/* Puts them behind `count` lights, of SCENE_LIGHTS_MAX; returns how many there are then. */
+size_t environment_add_suns(const environment *e, scene_light *lights, size_t count);
 
 /* The exposure that suits a scene that nothing but the studio lights; else 0: find one. */
 static inline float environment_exposure(const environment *e, size_t light_count) {

@@ -40,6 +40,7 @@ struct view_compositor {
     environment around;
     char around_name[VIEW_PATH_SIZE]; /* what it was made of */
     float around_numbers[2];
+    scene_light *lit; /* the settings' lights and the environment's suns, or NULL */
     view_lobes lobes;
     scene_camera camera; /* of the last draft */
 };
@@ -81,6 +82,7 @@ void view_compositor_destroy(view_compositor *s) {
     view_lobes_free(&s->lobes);
     shadow_destroy(s->shadows);
     environment_free(&s->around);
+    free(s->lit);
     gpu_screen_destroy(s->screen);
     free(s->shown[0].rgb8);
     free(s->shown[1].rgb8);
@@ -274,7 +276,8 @@ static bool settle_environment(view_compositor *s, const view_settings *settings
     if (!same) {
         environment_free(&s->around);
         s->around_name[0] = '\0';
-        if (!environment_open(&options, s->world, &s->around, error))
+        if (!environment_open(&options, s->world, &s->around, error) ||
+            !environment_extract_suns(&s->around, error))
             return false;
         if (s->shadows && !shadow_surround(s->shadows, &s->around, error))
             return false;
@@ -296,6 +299,14 @@ static bool settle_shadows(view_compositor *s, const view_settings *settings, re
     return s->shadows;
 }
 
+static bool add_suns(view_compositor *s, render_frame *frame, cli_error *error) {
+    if (!s->lit && !(s->lit = calloc(SCENE_LIGHTS_MAX, sizeof *s->lit)))
+        return cli_fail(error, NULL, "out of memory");
+    frame->lights = memcpy(s->lit, frame->lights, frame->light_count * sizeof *s->lit);
+    frame->light_count = environment_add_suns(&s->around, s->lit, frame->light_count);
+    return true;
+}
+
 /* How to draw a side: how many samples come from what samples counts. */
 static bool fill_frame(view_compositor *s, const view_settings *settings,
                        const view_shading *shading, int divisor, render_frame *frame,
@@ -315,7 +326,8 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
     memcpy(frame->background, settings->background, sizeof frame->background);
     if (is_preintegrated(shading))
         frame->lobes = view_lobes_get(&s->lobes, shading, error);
-    return !is_preintegrated(shading) || frame->lobes;
+    return (!is_preintegrated(shading) || frame->lobes) &&
+           (s->around.sun_count == 0 || add_suns(s, frame, error));
 }
 
 /* Takes a side's image for the screen, or for a file without one. */

@@ -4,6 +4,8 @@
 #include "app/environment/environment.h"
 #include "tests/program/folder.h"
 
+#include <lampion/shade.h>
+
 #include <math.h>
 
 static scene lit_scene(void) {
@@ -182,6 +184,119 @@ static void the_studio_shines_where_nothing_else_does(void **state) {
     environment_free(&e);
 }
 
+/* --- suns ------------------------------------------------------------------------------------- */
+
+enum { SKY_WIDTH = 256, SKY_HEIGHT = 128 };
+
+/* A blue sky of radiance 0.2, 0.4, 0.8, and a disc around the direction. */
+static image sky_with_disc(const double w[3], double angle, float radiance) {
+    image pixels = filled(SKY_WIDTH, SKY_HEIGHT, 0.2f);
+    for (int i = 0; i < SKY_WIDTH * SKY_HEIGHT; i++) {
+        const double theta = M_PI * (i / SKY_WIDTH + 0.5) / SKY_HEIGHT;
+        const double phi = 2 * M_PI * ((i % SKY_WIDTH + 0.5) / SKY_WIDTH - 0.5);
+        const double cosine = sin(theta) * (cos(phi) * w[0] + sin(phi) * w[2]) + cos(theta) * w[1];
+        if (cosine >= cos(angle))
+            for (int c = 0; c < 3; c++)
+                pixels.rgb[3 * i + c] = radiance * (float)(3 - c);
+    }
+    return pixels;
+}
+
+/* Of red, the irradiance of a surface that faces the direction. */
+static double irradiance(const image *pixels, const double w[3]) {
+    double sum = 0;
+    for (int i = 0; i < SKY_WIDTH * SKY_HEIGHT; i++) {
+        const int row = i / SKY_WIDTH;
+        const double solid = (cos(M_PI * row / SKY_HEIGHT) - cos(M_PI * (row + 1) / SKY_HEIGHT)) *
+                             2 * M_PI / SKY_WIDTH;
+        const double theta = M_PI * (row + 0.5) / SKY_HEIGHT;
+        const double phi = 2 * M_PI * ((i % SKY_WIDTH + 0.5) / SKY_WIDTH - 0.5);
+        const double cosine = sin(theta) * (cos(phi) * w[0] + sin(phi) * w[2]) + cos(theta) * w[1];
+        sum += solid * fmax(cosine, 0) * (double)pixels->rgb[3 * i];
+    }
+    return sum;
+}
+
+static void a_sun_in_an_image_becomes_a_cap(void **state) {
+    (void)state;
+    const double directions[][3] = { { 0.48, 0.6, 0.64 }, { -0.8, 0.6, 1e-3 }, { 0, -1, 0 } };
+    for (int i = 0; i < 3; i++) {
+        const double *w = directions[i], angle = 0.06;
+        image pixels = sky_with_disc(w, angle, 1e4f);
+        environment e;
+        cli_error error;
+        assert_true(opens(&pixels, 0, 1, &e, &error));
+        const double before = irradiance(&e.light, w);
+        assert_true(environment_extract_suns(&e, &error));
+        assert_int_equal(e.sun_count, 1);
+        const lmp_light *sun = &e.suns[0].emitter;
+        const lmp_vec3 d = sun->direction;
+        assert_int_equal(sun->kind, LMP_LIGHT_CAP);
+        CHECK_WITHIN(1 - ((double)d.x * w[0] + (double)d.y * w[1] + (double)d.z * w[2]), 1e-4);
+        CHECK_WITHIN(fabs((double)sun->angle / angle - 1), 0.25); /* of pixels of 0.025 */
+        const double after = irradiance(&e.light, w) +
+                             M_PI * (double)sun->radiance.r * pow(sin((double)sun->angle), 2);
+        CHECK_WITHIN(fabs(after / before - 1), 0.005);
+        /* The sky goes on where it was; what is seen keeps it. */
+        for (int k = 0; k < 3 * SKY_WIDTH * SKY_HEIGHT; k++)
+            assert_true(e.light.rgb[k] < 0.9f);
+        const lmp_rgb seen =
+            environment_seen(&e, (float[]) { (float)w[0], (float)w[1], (float)w[2] });
+        CHECK_WITHIN(fabs((double)seen.r / 3e4 - 1), 1e-3); /* of 16 bits */
+        environment_free(&e);
+        image_free(&pixels);
+    }
+}
+
+/* White paper by ten bands, wherever it faces, against quadrature of the whole image: on the dark
+ * side of a sun of 1e5 there is the light of the sky. */
+static void the_side_away_from_a_sun_is_as_dark_as_it_is(void **state) {
+    (void)state;
+    const double w[3] = { 0.48, 0.6, 0.64 };
+    const lmp_material paper = { .diffuse = { 1, 1, 1 } };
+    const lmp_shade_settings settings = { .bands = 10, .window = LMP_WINDOW_HANNING };
+    image pixels = sky_with_disc(w, 0.06, 1e5f / 3);
+    environment e;
+    cli_error error;
+    assert_true(opens(&pixels, 0, 1, &e, &error));
+    assert_true(environment_extract_suns(&e, &error) && environment_project(&e, 10, &error));
+    const lmp_environment sky = { e.sh, e.bands };
+    for (int i = 0; i < 100; i++) {
+        const lmp_vec3 n = check_random_direction();
+        const double normal[3] = { (double)n.x, (double)n.y, (double)n.z };
+        const double expected = irradiance(&pixels, normal) / M_PI;
+        const lmp_surface surface = { .normal = n, .view = n };
+        const double found =
+            (double)(lmp_shade(&settings, &paper, &surface, &e.suns[0].emitter, 1).r +
+                     lmp_shade_environment(&settings, &paper, &surface, &sky).r);
+        CHECK_WITHIN(fabs(found / expected - 1), 0.05);
+    }
+    environment_free(&e);
+    image_free(&pixels);
+}
+
+/* As many as there are; and none of a sky, of a wide window or of stars that give little. */
+static void what_is_no_sun_stays_in_the_image(void **state) {
+    (void)state;
+    static const struct {
+        double angle;
+        float radiance;
+    } discs[] = { { 0, 0 }, { 0.35, 1e4f }, { 0.06, 2 }, { 0.02, 20 } };
+    for (int i = 0; i < 4; i++) {
+        const double w[3] = { 0.48, 0.6, 0.64 };
+        image pixels = sky_with_disc(w, discs[i].angle, discs[i].radiance);
+        environment e;
+        cli_error error;
+        assert_true(opens(&pixels, 0, 1, &e, &error));
+        assert_true(environment_extract_suns(&e, &error));
+        assert_int_equal(e.sun_count, 0);
+        for (int k = 0; k < 3 * SKY_WIDTH * SKY_HEIGHT; k++)
+            assert_true(fabsf(e.light.rgb[k] - pixels.rgb[k]) <= 1e-3f * pixels.rgb[k]);
+        environment_free(&e);
+        image_free(&pixels);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_even_image_is_an_even_light),
@@ -190,6 +305,9 @@ int main(void) {
         cmocka_unit_test(a_large_image_has_the_coefficients_of_all_its_pixels),
         cmocka_unit_test(what_is_no_environment_is_refused),
         cmocka_unit_test(the_studio_shines_where_nothing_else_does),
+        cmocka_unit_test(a_sun_in_an_image_becomes_a_cap),
+        cmocka_unit_test(the_side_away_from_a_sun_is_as_dark_as_it_is),
+        cmocka_unit_test(what_is_no_sun_stays_in_the_image),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

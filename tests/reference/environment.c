@@ -61,7 +61,9 @@ static void truncated_lobes_agree_with_the_library(void **state) {
     const lmp_material material = { .diffuse = { 0.5f, 0.25f, 0.125f },
                                     .specular = { 0.25f, 0.5f, 0.75f },
                                     .exponent = 12 };
-    const lmp_shade_settings settings = { .bands = 6, .window = LMP_WINDOW_HANNING };
+    const lmp_shade_settings settings = { .method = LMP_SHADE_COEFFICIENTS,
+                                          .bands = 6,
+                                          .window = LMP_WINDOW_HANNING };
     assert_true(environment_project(&e, 6, &error));
     const lmp_environment light = { e.sh, e.bands };
     for (int i = 0; i < 20; i++) {
