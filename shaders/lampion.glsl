@@ -410,6 +410,7 @@ vec3 lmp_shade_some_zonal(lmp_surface surface, lmp_lobes lobes) {
         if (!lmp_light_lit(i, surface.position))
             continue;
         lmp_cap cap = lmp_light_cap(i, surface.position);
+        float d = lmp_cap_irradiance(cap, surface.normal) / LMP_PI;
         float r = 1.0, difference = 0.0;
         LMP_EACH v = LMP_DOT(cap.axis, lobes.axis), q0 = LMP_EACH(1.0), q1 = v, q2, g = LMP_EACH(0.0);
         if (LMP_BANDS > 1)
@@ -427,7 +428,6 @@ vec3 lmp_shade_some_zonal(lmp_surface surface, lmp_lobes lobes) {
     }
         LMP_FOR_BANDS(LMP_STEP)
 #undef LMP_STEP
-        float d = lmp_cap_irradiance(cap, surface.normal) / LMP_PI;
         g = glossy[0] * cap.base + cap.strength * g;
         sum += lmp_light_color(i, surface.position) * (lobes.diffuse * d + LMP_SUM(lobes.weight, g));
     }
