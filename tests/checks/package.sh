@@ -86,17 +86,17 @@ LD_LIBRARY_PATH=$lib "$WORK/shared" >"$WORK/shared.txt"
 mkdir "$WORK/reader"
 own_scene "$WORK/reader/scene.gltf"
 code_blocks README.md json >"$WORK/reader/lights.json"
-code_blocks README.md sh | grep '^lampion.* scene\.' | grep -v '^lampion view' | # small: the last --size counts
+code_blocks README.md sh | grep -E '^lampion (.* scene\.|compare )' | grep -v '^lampion view' | # small: the last --size counts
     sed 's/ lights.json .*/& --size 160x90/' >"$WORK/reader/commands"
 [ "$(wc -l <"$WORK/reader/commands")" -ge 6 ] || fail "the README's way is not there"
 (cd "$WORK/reader" && PATH=$root/usr/bin:$PATH XDG_CACHE_HOME=$WORK/cache sh -eu commands >log 2>&1) ||
     fail "the README's way: $(cat "$WORK/reader/log")"
 awk '$1 == "relmse" { found = $2 } END { exit !(found != "" && found < 0.01) }' "$WORK/reader/log" ||
     fail "the image is far from the truth: $(cat "$WORK/reader/log")"
-for image in scene.png gold.png; do
+for image in mine.png gold.png; do
     [ -s "$WORK/reader/$image" ] || fail "no $image"
 done
-! cmp -s "$WORK/reader/scene.png" "$WORK/reader/gold.png" || fail "the material changes nothing"
+! cmp -s "$WORK/reader/mine.png" "$WORK/reader/gold.png" || fail "the material changes nothing"
 
 # dpkg's own account of it, in a root of its own: installed, then purged without a trace
 if [ "$(id -u)" = 0 ]; then
