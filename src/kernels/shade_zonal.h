@@ -13,8 +13,7 @@
 
 /* A light seen from a block of surfaces: the axis of its cap of at most a hemisphere, the weights
  * of a lobe's sum over bands (of the diffuse lobe's clipped cosine, too) and of its number of
- * l = 0, and what else shade_direction says;
- * `ambient` is 0 where there is none. */
+ * l = 0, and what else shade_direction says; `ambient` is 0 where there is none. */
 typedef struct zonal_pair {
     vf axis[3], of_sum, of_whole, t, ambient;
 } zonal_pair;

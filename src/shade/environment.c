@@ -30,7 +30,7 @@ static environment_method method_of(const lmp_shade_settings *resolved, const lm
                                   .bands =
                                       resolved->bands < e->bands ? resolved->bands : e->bands };
     lmp_sh_window(resolved->bands, resolved->window, resolved->window_size, method.window);
-    const bool windowed = lmp_shade_method_of(resolved->method)->windows_diffuse;
+    const bool windowed = lmp_shade_method_of(resolved->method)->diffuse_by_bands;
     lmp_lobe_diffuse(resolved->bands, method.diffuse);
     for (int l = 0; l < resolved->bands; l++)
         method.diffuse[l] *= (windowed ? method.window[l] : 1) / pi;

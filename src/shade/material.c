@@ -80,14 +80,15 @@ void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec
 }
 
 void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *material,
-                     const lmp_surface *surface, shade_lobes *lobes) {
+                     const lmp_surface *surface, bool diffuse_by_bands, shade_lobes *lobes) {
     const int bands = resolved->bands;
     shade_reflection reflection;
     float window[LMP_BANDS_MAX];
     lobes->bands = bands;
     lmp_shade_reflection(material, surface->normal, surface->view, &reflection);
     lobes->count = 1 + reflection.count;
-    lmp_lobe_diffuse(bands, lobes->lobe[0].lambda);
+    if (diffuse_by_bands)
+        lmp_lobe_diffuse(bands, lobes->lobe[0].lambda);
     lobes->lobe[0].axis = surface->normal;
     lobes->lobe[0].weight = (lmp_rgb) { reflection.diffuse.r / pi, reflection.diffuse.g / pi,
                                         reflection.diffuse.b / pi };
@@ -101,7 +102,7 @@ void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *mat
     if (resolved->window == LMP_WINDOW_NONE)
         return;
     lmp_sh_window(bands, resolved->window, resolved->window_size, window);
-    for (int k = 0; k < lobes->count; k++)
+    for (int k = diffuse_by_bands ? 0 : 1; k < lobes->count; k++)
         for (int l = 0; l < bands; l++)
             lobes->lobe[k].lambda[l] *= window[l];
 }

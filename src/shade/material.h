@@ -175,9 +175,9 @@ static inline int lmp_shade_phong_count(const lmp_material *material, lmp_vec3 n
 void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
                           shade_reflection *reflection);
 
-/* The same truncated to bands. */
+/* The same truncated to bands; the diffuse lobe, lobe[0], has no lambda unless it is, too. */
 void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *material,
-                     const lmp_surface *surface, shade_lobes *lobes);
+                     const lmp_surface *surface, bool diffuse_by_bands, shade_lobes *lobes);
 
 /* One surface whose source is not preintegrated, nor its lobes (method.h); clamped to 0. */
 lmp_rgb lmp_shade_sum(const lmp_shade_settings *resolved, const lmp_material *material,

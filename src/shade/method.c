@@ -69,7 +69,7 @@ static const shade_method methods[LMP_SHADE_METHODS] = {
     [LMP_SHADE_ZONAL] = { .lobes_of_one = lmp_shade_lobes_zonal,
                           .prepare = prepare_zonal,
                           .lobes_of_chunk = add_zonal },
-    [LMP_SHADE_COEFFICIENTS] = { .windows_diffuse = true,
+    [LMP_SHADE_COEFFICIENTS] = { .diffuse_by_bands = true,
                                  .lobes_of_one = lmp_shade_lobes_coefficients },
     [LMP_SHADE_PREINTEGRATED] = { .preintegrated = true,
                                   .prepare = prepare_preintegrated,

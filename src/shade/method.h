@@ -18,8 +18,8 @@ typedef struct shade_method {
     /* It reads the settings' preintegrated lobe, and of a tabulated material, where there is one,
      * the preintegrated BRDF. */
     bool preintegrated;
-    /* The windowing filter damps the diffuse lobe too, as in the paper. */
-    bool windows_diffuse;
+    /* The diffuse lobe is truncated and windowed as the others are, as in the paper: else exact. */
+    bool diffuse_by_bands;
     /* What the lobes of one surface reflect, not clamped; NULL: they are a chunk of one. */
     lmp_rgb (*lobes_of_one)(const shade_lobes *lobes, lmp_vec3 point, const lmp_light *lights,
                             size_t count);

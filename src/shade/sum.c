@@ -14,6 +14,6 @@ lmp_rgb lmp_shade_sum(const lmp_shade_settings *resolved, const lmp_material *ma
     if (source.table)
         return clamped(lmp_shade_table(source.table, surface, lights, count));
     shade_lobes lobes;
-    lmp_shade_lobes(resolved, material, surface, &lobes);
+    lmp_shade_lobes(resolved, material, surface, method->diffuse_by_bands, &lobes);
     return clamped(method->lobes_of_one(&lobes, surface->position, lights, count));
 }

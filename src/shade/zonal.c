@@ -15,7 +15,8 @@ lmp_rgb lmp_shade_lobes_zonal(const shade_lobes *lobes, lmp_vec3 point, const lm
     for (size_t i = 0; i < count; i++) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], point, &cap);
-        lmp_cap_polynomials(bands, cap.one_minus_cos, r);
+        if (lobes->count > 1)
+            lmp_cap_polynomials(bands, cap.one_minus_cos, r);
         lmp_cap_add_irradiance(&cap, lobes->lobe[0].axis, &accumulated[0]);
         for (int k = 1; k < lobes->count; k++) {
             const shade_lobe *lobe = &lobes->lobe[k];
