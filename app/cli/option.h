@@ -32,6 +32,9 @@ void option_fish(const cli_command *command, const cli_option *options);
 /* Whether cli_be_quiet was called. */
 bool cli_is_quiet(void);
 
+/* Whether stderr is a terminal that can draw over what it shows. */
+bool cli_is_terminal(void);
+
 /* A table's limits: its own, or those of its kind. */
 void option_limits(const cli_option *option, double *minimum, double *maximum);
 

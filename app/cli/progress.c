@@ -31,7 +31,7 @@ bool cli_is_quiet(void) {
     return quiet;
 }
 
-static bool is_terminal(void) {
+bool cli_is_terminal(void) {
     const char *const kind = getenv("TERM");
     return isatty(STDERR_FILENO) && kind && strcmp(kind, "dumb") != 0;
 }
@@ -69,7 +69,7 @@ void cli_progress(const char *what, double done) {
         first_done = done;
     }
     last_done = done;
-    if (time - last_draw >= DRAW_PERIOD && !cli_is_quiet() && is_terminal()) {
+    if (time - last_draw >= DRAW_PERIOD && !cli_is_quiet() && cli_is_terminal()) {
         draw(what, time, done);
         last_draw = time;
         drawn = true;

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Names of files are untrusted: a terminal must not obey what is in them. */
 static void replace_controls(char *text) {
@@ -102,9 +101,8 @@ const char *cli_row_help(const char *what, const char *const *name, const char *
 
 /* As https://no-color.org has it: any value but an empty one. */
 static bool takes_color(void) {
-    const char *const refused = getenv("NO_COLOR"), *const terminal = getenv("TERM");
-    return !(refused && *refused) && terminal && strcmp(terminal, "dumb") != 0 &&
-           isatty(STDERR_FILENO);
+    const char *const refused = getenv("NO_COLOR");
+    return !(refused && *refused) && cli_is_terminal();
 }
 
 /* `color` is a parameter of ANSI's Select Graphic Rendition. */
