@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/compare/ssim.h"
 
+#include "app/image/srgb.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -22,16 +24,12 @@ static double *row_of(const rows *r, int number, int kind) {
     return r->values + ((size_t)number * MEANS + (size_t)kind) * (size_t)r->candidate->width;
 }
 
-static double luminance(const float *rgb) {
-    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
-}
-
 static void multiply_row(const rows *r, int y) {
     const int width = r->candidate->width;
     const size_t first = 3 * (size_t)y * (size_t)width;
     for (int i = 0; i < width; i++) {
-        const double a = luminance(r->candidate->rgb + first + 3 * i);
-        const double b = luminance(r->reference->rgb + first + 3 * i);
+        const double a = image_luminance(r->candidate->rgb + first + 3 * i);
+        const double b = image_luminance(r->reference->rgb + first + 3 * i);
         row_of(r, 0, X)[i] = a;
         row_of(r, 0, Y)[i] = b;
         row_of(r, 0, XX)[i] = a * a;

@@ -6,6 +6,7 @@
  * one part; of parts that are small and give much of all light, the largest become caps of the same
  * direction, solid angle and irradiance. In the image they become what is around them. */
 #include "app/environment/environment.h"
+#include "app/image/srgb.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -32,10 +33,6 @@ typedef struct parts {
     size_t *stack;
 } parts;
 
-static double luminance(const float *rgb) {
-    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
-}
-
 static double solid_angle(const image *map, int row) {
     return (cos(pi * row / map->height) - cos(pi * (row + 1) / map->height)) * 2 * pi / map->width;
 }
@@ -52,7 +49,7 @@ static void sum_below(const image *map, double threshold, double *light, double 
         double sum = 0;
         int count = 0;
         for (int x = 0; x < map->width; x++) {
-            const double y = luminance(rgb + 3 * x);
+            const double y = image_luminance(rgb + 3 * x);
             sum += y < threshold ? y : 0;
             count += y < threshold;
         }
@@ -90,7 +87,7 @@ static void direction_of(const environment *e, size_t i, double w[3]) {
 static void add_pixel(const environment *e, size_t i, part *to) {
     const float *rgb = pixel_at(&e->light, i);
     const double each = solid_angle(&e->light, (int)(i / (size_t)e->light.width));
-    const double y = luminance(rgb);
+    const double y = image_luminance(rgb);
     double w[3];
     direction_of(e, i, w);
     to->solid += each;
@@ -167,7 +164,7 @@ static void find_suns(environment *e, const parts *p, size_t size) {
     double all = 0;
     const double threshold = find_threshold(p->map, &all);
     for (size_t i = 0; i < size; i++)
-        p->state[i] = luminance(pixel_at(p->map, i)) >= threshold;
+        p->state[i] = image_luminance(pixel_at(p->map, i)) >= threshold;
     for (size_t i = 0; i < size && e->sun_count < ENVIRONMENT_SUNS_MAX; i++) {
         part found;
         if (p->state[i] != 1)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* srgb.h - the transfer of sRGB (IEC 61966-2-1). */
+/* srgb.h - the transfer and the luminance of sRGB (IEC 61966-2-1). */
 #ifndef LAMPION_IMAGE_SRGB_H
 #define LAMPION_IMAGE_SRGB_H
 
@@ -9,6 +9,11 @@
  * the bits of floats and bytes do not depend on the machine's mathematics. */
 static inline double image_srgb_to_linear(double stored) {
     return stored <= 0.04045 ? stored / 12.92 : pow((stored + 0.055) / 1.055, 2.4);
+}
+
+/* Relative luminance of a linear color. */
+static inline double image_luminance(const float *rgb) {
+    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
 }
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/paper/detail.h"
 
+#include "app/image/srgb.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -38,10 +40,8 @@ static double block_luminance(const image *part, int column, int row, int blocks
     const int top = row * part->height / blocks, bottom = (row + 1) * part->height / blocks;
     double sum = 0;
     for (int y = top; y < bottom; y++)
-        for (int x = left; x < right; x++) {
-            const float *rgb = pixel(part, x, y);
-            sum += 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
-        }
+        for (int x = left; x < right; x++)
+            sum += image_luminance(pixel(part, x, y));
     const int count = (right - left) * (bottom - top);
     return count > 0 ? sum / count : 0;
 }
