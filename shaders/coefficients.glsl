@@ -201,7 +201,7 @@ vec3 lmp_shade_some_coefficients(lmp_surface surface, lmp_lobes lobes) {
                            LMP_SUM(lobes.weight, norm * power * p * glossy[LMP_BAND(l)]);          \
         if (m == 0) {                                                                              \
             LMP_MONIC(l, m, 1.0, q, q1, q2)                                                        \
-            diffuse_response += sum[LMP_HALF_INDEX(l, m)] * \
+            diffuse_response += sum[LMP_HALF_INDEX(l, m)] *                                        \
                                 (norm * q * lmp_window_weight(l) * diffuse[LMP_BAND(l)]);          \
         }                                                                                          \
     }

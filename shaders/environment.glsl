@@ -3,7 +3,8 @@
  * and what is seen of it. */
 
 /* red, green, blue of coefficient l² + l + m, windowed: surroundings.w of them; as many that are
- * not, for tables and the diffuse lobe; then, in x, the matrices of a quarter turn about x. surroundings.x: bands */
+ * not, for tables and the diffuse lobe; then, in x, the matrices of a quarter turn about x.
+ * surroundings.x: bands */
 layout(std430, binding = SHARED_ENVIRONMENT) readonly restrict buffer environment_block {
     vec4 environment_sh[];
 };

@@ -21,9 +21,7 @@
 #define RANDOM_WARM_FRACTION 0.5f
 #define RANDOM_ASPECT        1.5f
 #define RANDOM_LOOKS         512
-#define RANDOM_SEEN_LEAST                                                                          \
-    0.05f /* of where lights may be, or they come to where the camera looks                        \
-           */
+#define RANDOM_SEEN_LEAST    0.05f /* of where they may be, or they come into the camera's view */
 
 void scene_clear_lights(scene *s) {
     s->light_count = 0;

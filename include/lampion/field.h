@@ -121,8 +121,8 @@ LMP_API void lmp_field_lobe_n(const lmp_field *field, const float *lambda, lmp_v
 
 /* lmp_shade_n under the field's lights. Of the settings the window counts; the bands are the
  * field's, and near lights are summed by LMP_SHADE_ZONAL. What the field has of a light reaches the
- * diffuse lobe by its bands, without the window. A material that has but a preintegrated
- * BRDF is lmp_shade's, under LMP_SHADE_PREINTEGRATED. */
+ * diffuse lobe by its bands, without the window. A material that has but a preintegrated BRDF is
+ * lmp_shade's, under LMP_SHADE_PREINTEGRATED. */
 LMP_API void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_field *field,
                                const lmp_surfaces *surfaces, size_t count, size_t rgb_stride,
                                float *rgb);
