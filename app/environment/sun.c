@@ -60,7 +60,7 @@ static void sum_below(const image *map, double threshold, double *light, double 
 
 /* The luminance from which a pixel is bright; `all` receives all light. */
 static double find_threshold(const image *map, double *all) {
-    double threshold = INFINITY, light, solid;
+    double threshold = (double)INFINITY, light, solid;
     sum_below(map, threshold, all, &solid);
     light = *all;
     for (int round = 0; round < ROUNDS && solid > 0; round++) {
