@@ -6,6 +6,7 @@
 #include "app/override/override.h"
 #include "app/reference/part.h"
 #include "app/reference/quadrature.h"
+#include "app/render/shadow/shadow.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,6 +20,7 @@ typedef struct reference_arguments {
     scene_camera_options camera;
     scene_lights_options lights;
     environment_options environment;
+    shadow_options shadow; /* on, or not */
     cli_list materials;
     reference_settings settings;
     int bands, window;
@@ -88,6 +90,12 @@ static bool choose_materials(reference_arguments *a, const scene *world, overrid
     return true;
 }
 
+/* By default where render does. */
+static void cast_shadows(reference_arguments *a, const scene *world) {
+    a->settings.shadows =
+        shadow_wanted(&a->shadow, a->settings.environment, world, world->light_count);
+}
+
 static bool render(reference_arguments *a, const char *name, cli_error *error) {
     scene world;
     environment around = { .bands = 0 };
@@ -100,8 +108,10 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
     settings->width = a->size[0];
     settings->height = a->size[1];
     settings->environment = &around;
-    const bool ok = scene_apply_lights(&world, &a->lights, error) &&
-                    environment_open(&a->environment, &world, &around, error) &&
+    const bool lit = scene_apply_lights(&world, &a->lights, error) &&
+                     environment_open(&a->environment, &world, &around, error);
+    cast_shadows(a, &world);
+    const bool ok = lit &&
                     scene_place_camera(&world, &a->camera, a->size, &settings->camera, error) &&
                     choose_materials(a, &world, &all, &sources, error) &&
                     reference_render(&world, settings, &radiance, &standard_error, error) &&
@@ -225,8 +235,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           REFERENCE_PARTS_MAX, NULL, &a.shard_given },
         { "noise-seed", 0, CLI_SEED, &a.settings.seed, "SEED",
           "seed of the noise: the same seed gives the same image", 0, 0, NULL, NULL },
-        { "shadows", 0, CLI_FLAG, &a.settings.shadows, NULL,
-          "let surfaces hide lights, as render --shadows does", 0, 0, NULL, NULL },
+        SHADOW_SWITCH_ROWS(a.shadow, SHADOW_SUITS),
         { "bands", 'n', CLI_INT, &a.bands, "N",
           "truncate the lobes to N bands, as render does; 0 means whole lobes", 0, LMP_BANDS_MAX,
           NULL, NULL },
@@ -266,7 +275,7 @@ const cli_command command_reference = {
     .operands = "SCENE",
     .summary = "render a Monte Carlo reference, without harmonics",
     .examples = "lampion reference builtin:atrium -o truth.exr --random-lights 30 --spp 256\n"
-                "lampion reference builtin:balls -o truth.png --error 0.01 --spp 4096 --shadows\n"
+                "lampion reference builtin:balls -o truth.png --error 0.01 --spp 4096\n"
                 "lampion reference --point 0,0,0 --normal 0,1,0 --light 0,2,0,0.5,10,10,10\n",
     .run = run,
 };

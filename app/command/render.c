@@ -213,7 +213,7 @@ static bool settle_device(render_job *j, cli_error *error) {
 }
 
 static bool cast_shadows(render_job *j, cli_error *error) {
-    if (!j->options->shadow.on || j->options->shadow.off)
+    if (!shadow_wanted(&j->options->shadow, &j->around, &j->world, j->world.light_count))
         return true;
     j->shadow = shadow_create(&j->world, render_device_bvh(&j->device), &j->around,
                               &j->options->shadow.settings, error);
@@ -333,7 +333,6 @@ static const render_options defaults = { .size = { 1280, 720 },
                                          .bands = LMP_SHADE_BANDS_DEFAULT,
                                          .window = LMP_WINDOW_HANNING,
                                          .environment = ENVIRONMENT_DEFAULTS,
-                                         .shadow = SHADOW_DEFAULTS,
                                          .field = SHADE_FIELD_DEFAULTS,
                                          .shot.pixels_max = IMAGE_READ_PIXELS,
                                          .shard = { 1, 1 },
@@ -356,6 +355,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           method_window_names(), NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         ENVIRONMENT_OPTION_ROWS(o.environment),
+        ENVIRONMENT_GROUND_ROW(o.environment),
         SCENE_CAMERA_OPTION_ROWS(o.camera, o.load),
         SCENE_LOAD_OPTION_ROWS(o.load),
         OVERRIDE_OPTION_ROW(o.materials),

@@ -93,7 +93,7 @@ static void add_exposure(const render_job *j, cJSON *stats) {
 static void add_shadows(const render_job *j, cJSON *stats) {
     const shadow_statistics s = shadow_describe(j->shadow);
     cJSON *shadows = cJSON_AddObjectToObject(stats, "shadows");
-    cJSON_AddNumberToObject(shadows, "rays_a_pixel", j->options->shadow.settings.rays);
+    cJSON_AddNumberToObject(shadows, "rays_a_pixel", s.rays_a_pixel);
     cJSON_AddNumberToObject(shadows, "rays", (double)s.rays);
     cJSON_AddNumberToObject(shadows, "rays_a_second", 1e3 * (double)s.rays / s.rays_milliseconds);
     cJSON_AddNumberToObject(shadows, "rays_milliseconds", s.rays_milliseconds);

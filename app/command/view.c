@@ -61,6 +61,7 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
         s->width = a->size[0];
         s->height = a->size[1];
         s->shadows = a->shadow.on && !a->shadow.off;
+        o->shadows_chosen = a->shadow.on || a->shadow.off;
         s->divider = 0.5f;
         s->shading[0] = (view_shading) { a->method, a->bands, (lmp_window)a->window };
         s->shading[1] = s->shading[0];
@@ -118,9 +119,10 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "window", 0, CLI_CHOICE, &a.window, "WINDOW",
           "windowing filter: damps the ringing of a series of few bands", 0, 0,
           method_window_names(), NULL },
-        SHADOW_SWITCH_ROWS(a.shadow),
+        SHADOW_SWITCH_ROWS(a.shadow, SHADOW_SUITS " or a GPU draws"),
         SCENE_LIGHTS_OPTION_ROWS(o->lights),
         ENVIRONMENT_OPTION_ROWS(o->environment),
+        ENVIRONMENT_GROUND_ROW(o->environment),
         SCENE_CAMERA_OPTION_ROWS(o->camera, o->load),
         SCENE_LOAD_OPTION_ROWS(o->load),
         OVERRIDE_OPTION_ROW(a.materials),

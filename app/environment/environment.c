@@ -70,6 +70,8 @@ const char *environment_choose(const environment_options *options, const scene *
     return "studio";
 }
 
+const char *const environment_ground_names[] = { "auto", "on", "off", NULL };
+
 bool environment_is_file(const char *name) {
     return strcmp(name, "none") != 0 && strcmp(name, "studio") != 0;
 }
@@ -79,6 +81,9 @@ bool environment_open(const environment_options *options, const scene *world, en
     const char *name = environment_choose(options, world);
     memset(e, 0, sizeof *e);
     e->azimuth = -options->rotation * pi / 180;
+    e->ground = options->ground == ENVIRONMENT_GROUND_ON ||
+                (options->ground == ENVIRONMENT_GROUND_SUITS && strcmp(name, "studio") == 0 &&
+                 !scene_is_inside(world));
     if (strcmp(name, "none") == 0)
         return true;
     if (!environment_is_file(name)) {

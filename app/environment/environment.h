@@ -6,10 +6,19 @@
 #include "app/image/image.h"
 #include "app/scene/scene.h"
 
+/* Whether shadows fall on level ground under the scene; as suits: in the studio, seen from outside.
+ */
+typedef enum environment_ground {
+    ENVIRONMENT_GROUND_SUITS,
+    ENVIRONMENT_GROUND_ON,
+    ENVIRONMENT_GROUND_OFF
+} environment_ground;
+
 typedef struct environment_options {
     const char *name; /* a file, "studio" or "none"; NULL: the studio where nothing else shines */
     float rotation;   /* degrees, counter-clockwise as seen from above */
     float strength;   /* a factor on radiance */
+    int ground;       /* environment_ground */
 } environment_options;
 
 #define ENVIRONMENT_DEFAULTS                                                                       \
@@ -38,6 +47,16 @@ typedef struct environment_options {
         .minimum = 0, .maximum = ENVIRONMENT_STRENGTH_MAX                                          \
     }
 
+/* And of the ground, where a command casts shadows. */
+extern const char *const environment_ground_names[];
+#define ENVIRONMENT_GROUND_ROW(variable)                                                           \
+    {                                                                                              \
+        .name = "ground", .kind = CLI_CHOICE, .target = &(variable).ground, .argument = "WHETHER", \
+        .help = "let shadows fall on level ground under the scene, which is not seen itself; "     \
+                "auto is on in the built-in studio, seen from outside",                            \
+        .choices = environment_ground_names                                                        \
+    }
+
 #define ENVIRONMENT_SUNS_MAX 8
 
 /* Both images are latitude-longitude, as lmp_latlong has them. Zero: there is none. */
@@ -46,6 +65,7 @@ typedef struct environment {
     image backdrop; /* what is seen of it; without pixels: nothing */
     float azimuth;  /* of the center columns, radians from +x toward +z */
     bool studio;    /* it is the built-in one */
+    bool ground;    /* shadows fall on level ground under the scene */
     float *sh;      /* its coefficients, lmp_environment, of `bands` bands */
     int bands;
     scene_light suns[ENVIRONMENT_SUNS_MAX]; /* what environment_extract_suns took from `light` */
@@ -77,6 +97,13 @@ size_t environment_add_suns(const environment *e, scene_light *lights, size_t co
 /* The exposure that suits a scene that nothing but the studio lights; else 0: find one. */
 static inline float environment_exposure(const environment *e, size_t light_count) {
     return e && e->studio && light_count == 0 ? 1 : 0;
+}
+
+/* Whether shadows suit a scene of so many lights by default. Not where the studio alone lights a
+ * scene seen from inside: it stands for the light that such a room would have, and its walls would
+ * keep all of it out. */
+static inline bool environment_suits_shadows(bool studio, const scene *seen, size_t light_count) {
+    return !(studio && light_count == 0 && scene_is_inside(seen));
 }
 
 /* Makes its coefficients, of so many bands at least. */

@@ -5,8 +5,9 @@
 
 #include <math.h>
 
-enum { WIDTH = 256, HEIGHT = WIDTH / 2, STEPS = 64 };
+enum { WIDTH = 256, HEIGHT = WIDTH / 2 };
 static const float pi = 3.14159265f;
+#define PAPER_UP 4.0f /* where the paper is brightest, degrees */
 
 /* A lamp: where its middle is, from the front to the right and up, its half sizes and the width of
  * its soft edge, in degrees. */
@@ -51,26 +52,39 @@ static lmp_rgb radiance_at(float right, float up) {
     return sum;
 }
 
-/* What is seen is no lamp, but the even gray of a photographer's paper. */
-static float paper(float sine) {
-    return sine < 0 ? between(0.26f, 0.11f, sqrtf(-sine)) : between(0.26f, 0.36f, sine);
+static float bell(float off, float width) {
+    const double part = (double)(off / width);
+    return (float)exp(-part * part);
 }
 
-bool environment_make_studio(environment *e, cli_error *error) {
-    if (!image_create(&e->light, WIDTH, HEIGHT, error) ||
-        !image_create(&e->backdrop, 1, STEPS, error))
-        return false;
+/* What is seen is no lamp, but a photographer's roll of gray paper, lit behind the subject: darker
+ * toward the floor before it, the ceiling and the sides. */
+static lmp_rgb paper_at(float right, float up) {
+    const float behind = remainderf(right - 180, 360);
+    const float level = up < PAPER_UP ? 0.07f + 0.36f * bell(up - PAPER_UP, 30)
+                                      : 0.2f + 0.23f * bell(up - PAPER_UP, 45);
+    const float gray = level * (0.5f + 0.5f * bell(behind, 50));
+    return (lmp_rgb) { 0.98f * gray, gray, 1.03f * gray };
+}
+
+/* What radiance_at or paper_at has of every direction. */
+static void paint(lmp_rgb (*radiance_of)(float right, float up), image *map) {
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
             /* Columns run from +x toward +z: who faces the front has that at the left. */
             const float right = 180 - 360 * ((float)x + 0.5f) / WIDTH;
             const float up = 90 - 180 * ((float)y + 0.5f) / HEIGHT;
-            const lmp_rgb radiance = radiance_at(right, up);
-            float *pixel = e->light.rgb + 3 * (y * WIDTH + x);
+            const lmp_rgb radiance = radiance_of(right, up);
+            float *pixel = map->rgb + 3 * (y * WIDTH + x);
             pixel[0] = radiance.r, pixel[1] = radiance.g, pixel[2] = radiance.b;
         }
-    for (int y = 0; y < STEPS; y++)
-        for (int c = 0; c < 3; c++)
-            e->backdrop.rgb[3 * y + c] = paper(cosf(pi * ((float)y + 0.5f) / STEPS));
+}
+
+bool environment_make_studio(environment *e, cli_error *error) {
+    if (!image_create(&e->light, WIDTH, HEIGHT, error) ||
+        !image_create(&e->backdrop, WIDTH, HEIGHT, error))
+        return false;
+    paint(radiance_at, &e->light);
+    paint(paper_at, &e->backdrop);
     return true;
 }

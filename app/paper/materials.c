@@ -101,7 +101,7 @@ static bool trace(paper *p, const materials_figure *f, const paper_material *m, 
     char file[64];
     name_file(m, kind, file);
     return paper_run(p, seed == 1 && *m->letter == 'a', error,
-                     "reference %s %s --material %s --size %dx%d " SAMPLING
+                     "reference %s %s --no-shadows --material %s --size %dx%d " SAMPLING
                      " --noise-seed %d -o %s",
                      ball->words, ball->camera, m->word, f->judged_size[0], f->judged_size[1], seed,
                      file) &&
@@ -218,7 +218,8 @@ static bool show_figure(paper *p, const materials_figure *f, cli_error *error) {
         char file[64], caption[200];
         name_file(m, "figure.png", file);
         if (!paper_run(p, i < 2, error,
-                       "render %s %s --material %s --size %dx%d --bands 10 --window hanning -o %s",
+                       "render %s %s --no-shadows --material %s --size %dx%d --bands 10 "
+                       "--window hanning -o %s",
                        ball->words, i == 0 ? ball->overview : ball->camera, m->word, f->size[0],
                        f->size[1], file))
             return false;

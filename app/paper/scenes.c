@@ -119,7 +119,8 @@ static bool write_times(paper *p, const figure *f, const paper_devices *devices,
 /* The command of a ground truth, whose noise goes by its seed. */
 static bool trace(paper *p, const figure *f, bool show, int seed, const char *file,
                   cli_error *error) {
-    return paper_run(p, show, error, "reference %s --size %dx%d --spp %d --noise-seed %d -o %s",
+    return paper_run(p, show, error,
+                     "reference %s --no-shadows --size %dx%d --spp %d --noise-seed %d -o %s",
                      f->from->words, f->judged_size[0], f->judged_size[1], f->samples, seed, file);
 }
 
@@ -233,7 +234,8 @@ static bool show_images(paper *p, const figure *f, const outcome *o, cli_error *
     for (int i = 0; f->shown[i]; i++) {
         snprintf(file, sizeof file, "%s-%d.png", f->name, f->shown[i]);
         if (!paper_run(p, true, error,
-                       "render %s --size %dx%d --bands %d --window hanning --exposure %.6g -o %s",
+                       "render %s --no-shadows --size %dx%d --bands %d --window hanning "
+                       "--exposure %.6g -o %s",
                        f->from->words, f->size[0], f->size[1], f->shown[i], (double)o->exposure,
                        file))
             return false;

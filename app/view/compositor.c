@@ -6,6 +6,7 @@
 #include "app/view/compose.h"
 #include "app/view/draft.h"
 #include "app/view/lobes.h"
+#include "app/view/surroundings.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -37,9 +38,7 @@ struct view_compositor {
     view_side shown[2]; /* of the sides, without a screen */
     side sides[2];
     shadow *shadows;
-    environment around;
-    char around_name[VIEW_PATH_SIZE]; /* what it was made of */
-    float around_numbers[2];
+    view_surroundings surroundings;
     scene_light *lit; /* the settings' lights and the environment's suns, or NULL */
     view_lobes lobes;
     scene_camera camera; /* of the last draft */
@@ -81,7 +80,7 @@ void view_compositor_destroy(view_compositor *s) {
     close_side(&s->sides[1]);
     view_lobes_free(&s->lobes);
     shadow_destroy(s->shadows);
-    environment_free(&s->around);
+    environment_free(&s->surroundings.around);
     free(s->lit);
     gpu_screen_destroy(s->screen);
     free(s->shown[0].rgb8);
@@ -203,7 +202,7 @@ static bool prepare_renderer(view_compositor *s, side *own, any_renderer *render
                              cli_error *error) {
     if (!renderer)
         return false;
-    renderer_set_environment(renderer, &s->around);
+    renderer_set_environment(renderer, &s->surroundings.around);
     return !override_is_needed(own->count, s->world) ||
            override_apply(&own->materials, s->world, renderer, error);
 }
@@ -248,7 +247,7 @@ bool view_compositor_does_without(const view_settings *settings) {
 /* The renderer that draws a side, by the settings' method. */
 static any_renderer *open_side(view_compositor *s, side *own, const view_settings *settings,
                                const view_shading *shading, quality fineness, cli_error *error) {
-    const bool shines = environment_shines(&s->around);
+    const bool shines = environment_shines(&s->surroundings.around);
     if (!s->screen || device_of(settings, shading, shines, s->gpu.gl.software) == DEVICE_CPU)
         return open_cpu(s, own, error) ? own->cpu : NULL;
     return open_gpu(s, own, fineness, error) ? own->renderers[fineness] : NULL;
@@ -259,32 +258,22 @@ static bool settle_environment(view_compositor *s, const view_settings *settings
                                cli_error *error) {
     const int first = settings->shading[0].bands, second = settings->shading[1].bands;
     const int bands = first > second ? first : second;
-    const float numbers[2] = { settings->environment_rotation, settings->environment_strength };
-    const environment_options options = { settings->environment, numbers[0], numbers[1] };
-    const bool same = strcmp(s->around_name, settings->environment) == 0 &&
-                      memcmp(s->around_numbers, numbers, sizeof numbers) == 0;
-    if (same && (!environment_shines(&s->around) || s->around.bands >= bands))
+    environment *around = &s->surroundings.around;
+    const bool same = view_surroundings_match(&s->surroundings, settings);
+    if (same && (!environment_shines(around) || around->bands >= bands))
         return true;
     for (int i = 0; i < 2; i++) {
         const side *own = &s->sides[i];
         if (own->cpu)
-            renderer_set_environment(own->cpu, &s->around);
+            renderer_set_environment(own->cpu, around);
         for (int k = 0; k < QUALITIES; k++)
             if (own->renderers[k])
-                renderer_set_environment(own->renderers[k], &s->around);
+                renderer_set_environment(own->renderers[k], around);
     }
-    if (!same) {
-        environment_free(&s->around);
-        s->around_name[0] = '\0';
-        if (!environment_open(&options, s->world, &s->around, error) ||
-            !environment_extract_suns(&s->around, error))
-            return false;
-        if (s->shadows && !shadow_surround(s->shadows, &s->around, error))
-            return false;
-        memcpy(s->around_name, settings->environment, sizeof s->around_name);
-        memcpy(s->around_numbers, numbers, sizeof numbers);
-    }
-    return environment_project(&s->around, bands, error);
+    if (!same && (!view_surroundings_open(&s->surroundings, settings, s->world, error) ||
+                  (s->shadows && !shadow_surround(s->shadows, around, error))))
+        return false;
+    return environment_project(around, bands, error);
 }
 
 static bool settle_shadows(view_compositor *s, const view_settings *settings, render_pass *pass,
@@ -294,7 +283,7 @@ static bool settle_shadows(view_compositor *s, const view_settings *settings, re
         return true;
     if (!s->shadows)
         s->shadows = shadow_create(s->world, render_device_bvh(s->cpu.cpu ? &s->cpu : &s->gpu),
-                                   &s->around, &quick, error);
+                                   &s->surroundings.around, &quick, error);
     *pass = (render_pass) { shadow_frame, s->shadows };
     return s->shadows;
 }
@@ -303,7 +292,7 @@ static bool add_suns(view_compositor *s, render_frame *frame, cli_error *error) 
     if (!s->lit && !(s->lit = calloc(SCENE_LIGHTS_MAX, sizeof *s->lit)))
         return cli_fail(error, NULL, "out of memory");
     frame->lights = memcpy(s->lit, frame->lights, frame->light_count * sizeof *s->lit);
-    frame->light_count = environment_add_suns(&s->around, s->lit, frame->light_count);
+    frame->light_count = environment_add_suns(&s->surroundings.around, s->lit, frame->light_count);
     return true;
 }
 
@@ -327,7 +316,7 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
     if (is_preintegrated(shading))
         frame->lobes = view_lobes_get(&s->lobes, shading, error);
     return (!is_preintegrated(shading) || frame->lobes) &&
-           (s->around.sun_count == 0 || add_suns(s, frame, error));
+           (s->surroundings.around.sun_count == 0 || add_suns(s, frame, error));
 }
 
 /* Takes a side's image for the screen, or for a file without one. */
@@ -413,7 +402,7 @@ bool view_compositor_expose(view_compositor *s, const view_settings *settings, f
         !fill_frame(s, settings, shading, 1, &frame, error) ||
         !settle_field(s, own, shading, &frame, error))
         return false;
-    *exposure = environment_exposure(&s->around, settings->light_count);
+    *exposure = environment_exposure(&s->surroundings.around, settings->light_count);
     if (*exposure > 0)
         return true;
     if (!renderer_meter(renderer, &frame, &pixels, error))

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* reload.c - the viewer's scene, read again when its file changes. */
+#include "app/render/renderer.h"
 #include "app/view/viewer.h"
 
 #include <stdio.h>
@@ -53,6 +54,12 @@ static void drop_lost_materials(view_state *state) {
     }
 }
 
+/* Rays run on the CPU: a GPU would wait for them. */
+static bool suits_shadows(const scene *world, const char *surroundings) {
+    const bool studio = strcmp(surroundings, "studio") == 0;
+    return !render_finds_gpu() && environment_suits_shadows(studio, world, world->light_count);
+}
+
 bool view_choose_environment(viewer *v, cli_error *error) {
     const view_options *o = v->options;
     view_settings *now = &v->state.now;
@@ -64,6 +71,9 @@ bool view_choose_environment(viewer *v, cli_error *error) {
     strcpy(now->environment, name);
     now->environment_rotation = o->environment.rotation;
     now->environment_strength = o->environment.strength;
+    now->ground = o->environment.ground;
+    if (!o->shadows_chosen)
+        now->shadows = suits_shadows(v->world, name);
     return true;
 }
 

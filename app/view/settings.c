@@ -110,6 +110,7 @@ cJSON *view_settings_to_json(const view_settings *s) {
     cJSON_AddNumberToObject(root, "height", s->height);
     cJSON_AddNumberToObject(root, "samples", s->samples);
     cJSON_AddBoolToObject(root, "shadows", s->shadows);
+    cJSON_AddStringToObject(root, "ground", environment_ground_names[s->ground]);
     file_json_add_floats(root, "exposure", &s->exposure, 1);
     cJSON_AddStringToObject(root, "tone", image_tones[s->tone].name);
     file_json_add_floats(root, "background", s->background, 3);
@@ -203,6 +204,13 @@ static bool read_shadows(const cJSON *root, bool *shadows) {
     const cJSON *item = file_json_member(root, "shadows");
     *shadows = cJSON_IsTrue(item);
     return !item || cJSON_IsBool(item);
+}
+
+/* Nor had those of before there was ground. */
+static bool read_ground(const cJSON *root, int *ground) {
+    *ground = ENVIRONMENT_GROUND_OFF;
+    return !file_json_member(root, "ground") ||
+           read_choice(root, "ground", environment_ground_names, ground);
 }
 
 /* Absent where it is 0. */
@@ -307,6 +315,7 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
                         : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
                         : !read_int(root, "samples", 1, VIEW_SAMPLES_MAX, &s->samples) ? "samples"
                         : !read_shadows(root, &s->shadows)                             ? "shadows"
+                        : !read_ground(root, &s->ground)                               ? "ground"
                         : !read_float(root, "exposure", 1e-30, 1e30, &s->exposure)     ? "exposure"
                         : !read_tone(root, &s->tone)                                   ? "tone"
                         : !read_floats(root, "background", 0, 1e30, s->background) ? "background"

@@ -27,6 +27,7 @@ typedef struct view_settings {
     int width, height;
     int samples; /* a pixel */
     bool shadows;
+    int ground;     /* environment_ground */
     float exposure; /* a factor on radiance */
     int tone;       /* a row of image_tones */
     float background[3];

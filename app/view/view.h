@@ -9,6 +9,7 @@ typedef struct view_options {
     view_settings settings; /* lights aside: those are the scene's */
     bool expose;            /* find the exposure; then times settings.exposure */
     bool keep_lights;       /* the lights of settings, not the scene's */
+    bool shadows_chosen;    /* settings.shadows counts; else what suits scene and device */
     scene_lights_options lights;
     environment_options environment; /* with keep_lights that of settings */
     scene_options load;

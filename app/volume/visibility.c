@@ -61,7 +61,7 @@ static void send_rays(const volume_visibility *v, const shadow_source *source, l
         along[i] = first + i < v->rays ? (number + 0.5f) / (float)v->rays : 0;
         around[i] = golden - floorf(golden);
     }
-    shadow_sources_draw(sources, &points, along, around, &samples);
+    shadow_sources_draw(sources, &points, NULL, along, around, &samples);
     memcpy(rays.origin, points.of, sizeof rays.origin);
     memcpy(rays.direction, samples.direction.of, sizeof rays.direction);
     for (int i = 0; i < TRACE_LANES; i++) {

@@ -125,7 +125,7 @@ static void open_scene_stage(stage *s, void (*make)(scene *world)) {
     s->frame.host = shade_frame;
 }
 
-static void open_stage(stage *s) {
+static inline void open_stage(stage *s) {
     open_scene_stage(s, make_scene);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Directions drawn from an environment, against the map of it that its format defines: rows of
  * equal angles from the top, columns of equal angles, their middle at the azimuth. */
-#include "app/render/shadow/around.h"
+#include "app/render/shadow/toward.h"
 
 #include "tests/oracle/check.h"
 
@@ -90,6 +90,76 @@ static void directions_bring_what_their_texels_have(void **state) {
     shadow_around_free(&around);
 }
 
+/* The radiance is that of the direction's texel, its density what shadow_around_draw makes. */
+static void a_direction_has_the_radiance_of_its_texel(void **state) {
+    (void)state;
+    shadow_around around;
+    double all = 0;
+    color();
+    for (int i = 0; i < TEXELS; i++)
+        all += (double)(rgb[i][0] + rgb[i][1] + rgb[i][2]) / 3 * solid_angle(i / WIDTH);
+    assert_true(shadow_around_create(&sky, &around));
+    for (int i = 0; i < 1000; i++) {
+        float density;
+        const lmp_vec3 d = check_random_direction();
+        const float *here = rgb[texel_at(d)];
+        const lmp_rgb radiance = shadow_around_look(&around, d, &density);
+        assert_true(radiance.r == here[0] && radiance.g == here[1] && radiance.b == here[2]);
+        CHECK_WITHIN(fabs((double)density * all - (double)(here[0] + here[1] + here[2]) / 3), 1e-5);
+    }
+    shadow_around_free(&around);
+}
+
+/* Irradiance of a normal by summing over the texels in small steps. */
+static double irradiance_of(lmp_vec3 normal) {
+    enum { FINE = 40 };
+    double sum = 0;
+    for (int y = 0; y < HEIGHT * FINE; y++)
+        for (int x = 0; x < WIDTH * FINE; x++) {
+            const double down = pi * (y + 0.5) / (HEIGHT * FINE);
+            const double turns = (x + 0.5) / (WIDTH * FINE) - 0.5;
+            const double azimuth = 2 * pi * turns + (double)sky.azimuth;
+            const double along = sin(down) * cos(azimuth) * (double)normal.x +
+                                 cos(down) * (double)normal.y +
+                                 sin(down) * sin(azimuth) * (double)normal.z;
+            const double solid = sin(down) * pi / (HEIGHT * FINE) * 2 * pi / (WIDTH * FINE);
+            sum += along > 0 ? along * solid * (double)rgb[y / FINE * WIDTH + x / FINE][0] : 0;
+        }
+    return sum;
+}
+
+/* Whichever part of the mixture weighs most, the mean of what arrives times the cosine is the
+ * irradiance: the densities are those by which directions are drawn. */
+static void directions_toward_a_surface_bring_its_irradiance(void **state) {
+    (void)state;
+    static shadow_points points; /* one, in every lane */
+    const float parts[][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 0.5f, 0.3f, 0.4f }, { 0 } };
+    shadow_around around;
+    color();
+    assert_true(shadow_around_create(&sky, &around));
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        const lmp_vec3 n = { 0.6f, -0.48f, 0.64f };
+        double sum = 0;
+        points.coated = parts[k][2] > 0;
+        points.albedo[0] = parts[k][0], points.shine[0] = parts[k][1], points.coat[0] = parts[k][2];
+        points.alpha2[0] = 0.3f, points.coat_alpha2[0] = 0.1f;
+        shadow_set_lane(&points.normal, 0, n);
+        shadow_set_lane(&points.mirror, 0, (lmp_vec3) { 0, -0.6f, 0.8f });
+        shadow_set_lane(&points.coat_mirror, 0, (lmp_vec3) { 1, 0, 0 });
+        for (int i = 0; i < STEPS * STEPS; i++) {
+            const float u = ((float)(i / STEPS) + 0.5f) / STEPS,
+                        v = ((float)(i % STEPS) + 0.5f) / STEPS;
+            lmp_rgb arrives;
+            const lmp_vec3 d = shadow_draw_toward(&around, &points, 0, u, v, &arrives);
+            CHECK_WITHIN(fabsf(d.x * d.x + d.y * d.y + d.z * d.z - 1), 1e-5f);
+            sum += (double)arrives.r * fmax((double)(d.x * n.x + d.y * n.y + d.z * n.z), 0);
+        }
+        const double expected = irradiance_of(n);
+        CHECK_WITHIN(fabs(sum / (STEPS * STEPS) - expected), 0.02 * expected);
+    }
+    shadow_around_free(&around);
+}
+
 static void darkness_sends_no_rays(void **state) {
     (void)state;
     shadow_around around;
@@ -107,6 +177,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_is_that_of_all_directions),
         cmocka_unit_test(directions_bring_what_their_texels_have),
+        cmocka_unit_test(a_direction_has_the_radiance_of_its_texel),
+        cmocka_unit_test(directions_toward_a_surface_bring_its_irradiance),
         cmocka_unit_test(darkness_sends_no_rays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

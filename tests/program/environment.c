@@ -25,7 +25,9 @@ static image filled(int width, int height, float red) {
 static bool opens(const image *pixels, float rotation, float strength, environment *e,
                   cli_error *error) {
     const scene world = lit_scene();
-    const environment_options options = { in_folder("map.exr"), rotation, strength };
+    const environment_options options = { .name = in_folder("map.exr"),
+                                          .rotation = rotation,
+                                          .strength = strength };
     *error = (cli_error) { .text = "" };
     if (!image_write(pixels, options.name, &(image_display) { .exposure = 1 }, error))
         fail_msg("%s", error->text);
@@ -153,7 +155,7 @@ static void what_is_no_environment_is_refused(void **state) {
     const scene world = lit_scene();
     const char *const names[] = { "missing.hdr", "photo.jpg", "none.exr" };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const environment_options options = { names[i], 0, 1 };
+        const environment_options options = { .name = names[i], .strength = 1 };
         assert_false(environment_open(&options, &world, &e, &error));
         assert_non_null(strstr(error.text, names[i]));
     }
@@ -164,7 +166,7 @@ static void what_is_no_environment_is_refused(void **state) {
 
 static void the_studio_shines_where_nothing_else_does(void **state) {
     (void)state;
-    const environment_options none = { NULL, 0, 1 };
+    const environment_options none = ENVIRONMENT_DEFAULTS;
     scene world = lit_scene();
     environment e;
     cli_error error;
@@ -173,7 +175,8 @@ static void the_studio_shines_where_nothing_else_does(void **state) {
     assert_string_equal(environment_choose(&none, &world), "studio");
     world.lights_chosen = true;
     assert_string_equal(environment_choose(&none, &world), "none");
-    assert_true(environment_open(&(environment_options) { "studio", 0, 1 }, &world, &e, &error));
+    assert_true(environment_open(&(environment_options) { .name = "studio", .strength = 1 }, &world,
+                                 &e, &error));
     assert_true(environment_shines(&e) && environment_exposure(&e, 0) > 0);
     assert_true(environment_exposure(&e, 1) <= 0);
     /* White paper that faces up is bright and not overexposed. */

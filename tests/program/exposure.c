@@ -155,7 +155,7 @@ static void shadows_and_lamps_change_no_exposure(void **state) {
         subject *s = open_subject(kind, 5);
         const environment none = { .bands = 0 };
         cli_error error = { "" };
-        const shadow_settings settings = ((shadow_options)SHADOW_DEFAULTS).settings;
+        const shadow_settings settings = { .rays = 0 };
         shadow *cast =
             shadow_create(&s->world, render_device_bvh(&s->device), &none, &settings, &error);
         float exposures[4];

@@ -98,8 +98,8 @@ cmp -s "$WORK/smooth.png" "$WORK/a.png" && fail "--samples changes nothing"
 
 # parallel rays; and a scene that is rotated with its camera and lights looks the same
 "$PROGRAM" render builtin:balls $small -o "$WORK/parting.exr"
-"$PROGRAM" render builtin:balls $small --orthographic 3 -o "$WORK/parallel.exr"
-"$PROGRAM" render builtin:balls $small --orthographic 3 --up z -o "$WORK/up.exr"
+"$PROGRAM" render builtin:balls $small --no-shadows --orthographic 3 -o "$WORK/parallel.exr"
+"$PROGRAM" render builtin:balls $small --no-shadows --orthographic 3 --up z -o "$WORK/up.exr"
 "$PROGRAM" compare "$WORK/up.exr" "$WORK/parallel.exr" --fail-above rmse=1e-4 || fail "--up z leaves something as it was"
 cmp -s "$WORK/parallel.exr" "$WORK/parting.exr" && fail "--orthographic changes nothing"
 
@@ -196,3 +196,27 @@ twice=$(rays --shadow-rays 4) sparse=$(rays --shadow-sparse)
 [ $((twice * 100)) -gt $((all * 195)) ] && [ $((twice * 100)) -lt $((all * 205)) ] ||
     fail "four rays a pixel are $twice, two $all"
 [ "$sparse" -gt 0 ] && [ $((sparse * 9)) -lt $((all * 5)) ] || fail "--shadow-sparse sends $sparse of $all rays"
+
+# shadows are the default, except where the studio alone lights a room; in the studio they fall on ground
+alike() {
+    "$PROGRAM" render -q $small $2 -o "$WORK/one.png" && "$PROGRAM" render -q $small $3 -o "$WORK/two.png" || fail "render $2, $3"
+    same=yes
+    cmp -s "$WORK/one.png" "$WORK/two.png" || same=no
+    [ "$1" = "$same" ] || fail "the same image by $2 and $3: $same"
+}
+printf 'v -1 0 0\nv 1 0 0\nv 0 0 1\nv 0 2 0\nf 1 2 3\nf 1 3 4\nf 3 2 4\nf 2 1 4\n' >"$WORK/spike.obj"
+room="builtin:atrium --lights $WORK/none.json --environment studio"
+alike yes builtin:balls "builtin:balls --shadows"
+alike no builtin:balls "builtin:balls --no-shadows"
+alike yes "$room" "$room --no-shadows"
+alike no "$room" "$room --shadows"
+alike yes "$WORK/spike.obj" "$WORK/spike.obj --ground on"
+alike no "$WORK/spike.obj" "$WORK/spike.obj --ground off"
+alike yes "$WORK/spike.obj --no-shadows --ground on" "$WORK/spike.obj --no-shadows --ground off"
+"$PROGRAM" render builtin:balls --size 64x36 --bands 20 -o "$WORK/shadows.exr"
+"$PROGRAM" reference builtin:balls --size 64x36 --spp 64 -o "$WORK/truth.exr"
+"$PROGRAM" compare "$WORK/shadows.exr" "$WORK/truth.exr" >"$WORK/with"
+"$PROGRAM" render builtin:balls --size 64x36 --bands 20 --no-shadows -o "$WORK/bare.exr"
+"$PROGRAM" compare "$WORK/bare.exr" "$WORK/truth.exr" >"$WORK/without"
+with=$(awk '$1 == "rmse" { print $2 }' "$WORK/with") without=$(awk '$1 == "rmse" { print $2 }' "$WORK/without")
+awk "BEGIN { exit !($with < 0.5 * $without) }" || fail "reference has no shadows by default: $with, $without without"

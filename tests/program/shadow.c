@@ -21,7 +21,7 @@ static void draw(const shadow_source *source, const shadow_lanes u, const shadow
     const shadow_source *sources[SHADOW_LANES];
     for (int i = 0; i < SHADOW_LANES; i++)
         sources[i] = source;
-    shadow_sources_draw(sources, &origins, u, v, samples);
+    shadow_sources_draw(sources, &origins, NULL, u, v, samples);
 }
 
 static double dot(lmp_vec3 a, lmp_vec3 b) {
@@ -174,13 +174,13 @@ static void neighbors_do_not_mix(void **state) {
         u[i] = (float)check_random();
         v[i] = (float)check_random();
     }
-    shadow_sources_draw(mixed, &positions, u, v, &together);
+    shadow_sources_draw(mixed, &positions, NULL, u, v, &together);
     for (int i = 0; i < SHADOW_LANES; i++) {
         const shadow_source *alone[SHADOW_LANES];
         shadow_samples samples;
         for (int k = 0; k < SHADOW_LANES; k++)
             alone[k] = mixed[i];
-        shadow_sources_draw(alone, &positions, u, v, &samples);
+        shadow_sources_draw(alone, &positions, NULL, u, v, &samples);
         const lmp_vec3 a = shadow_lane(&together.direction, i);
         const lmp_vec3 b = shadow_lane(&samples.direction, i);
         const lmp_vec3 more = shadow_lane(&together.arrives, i);

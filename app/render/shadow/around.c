@@ -89,3 +89,22 @@ lmp_vec3 shadow_around_draw(const shadow_around *around, float u, float v, lmp_r
     *arrives = rgb_scale(rgb_load(rgb), scale);
     return vec((float)(sine * cos(azimuth)), (float)cosine, (float)(sine * sin(azimuth)));
 }
+
+/* The row whose pixels a cosine with the zenith falls on. */
+static int find_row(const image *map, double cosine) {
+    const int row = (int)(acos(fmin(fmax(cosine, -1), 1)) / (double)PI * map->height);
+    return row < map->height ? row : map->height - 1;
+}
+
+lmp_rgb shadow_around_look(const shadow_around *around, lmp_vec3 direction, float *density) {
+    const image *map = &around->source->light;
+    const double azimuth = atan2((double)direction.z, (double)direction.x);
+    const double turns = (azimuth - (double)around->source->azimuth) / (2 * (double)PI) + 0.5;
+    const int column = (int)((turns - floor(turns)) * map->width);
+    const int row = find_row(map, (double)direction.y);
+    const size_t pixel =
+        (size_t)row * (size_t)map->width + (size_t)(column < map->width ? column : map->width - 1);
+    const float *rgb = map->rgb + 3 * pixel;
+    *density = (float)(brightness_of(rgb) / around->rows[map->height - 1]);
+    return rgb_load(rgb);
+}

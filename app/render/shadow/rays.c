@@ -79,7 +79,7 @@ static void aim(const shadow_job *job, const shadow_points *p, shadow_lanes *wei
     shadow_lanes weight;
     for (int i = 0; i < SHADOW_LANES; i++)
         sources[i] = &job->sources[chosen[i]];
-    shadow_sources_draw(sources, &p->position, u[1], u[2], &samples);
+    shadow_sources_draw(sources, &p->position, p, u[1], u[2], &samples);
     shadow_reflect(p, &samples.direction, &k);
     weigh_choice(p, weights, chosen, weight);
     for (int i = 0; i < SHADOW_LANES; i++)

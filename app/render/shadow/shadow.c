@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/shadow/shadow.h"
 
+#include "app/render/shadow/ground.h"
 #include "app/render/shadow/rays.h"
 #include "app/render/shadow/reuse.h"
 #include "app/render/shadow/sequence.h"
@@ -15,6 +16,7 @@ struct shadow {
     shadow_settings settings;
     const trace_bvh *bvh;
     shadow_around around;
+    bool ground; /* receives shadows as well */
     shadow_source *sources;
     shadow_planes planes;
     shadow_statistics statistics;
@@ -44,6 +46,7 @@ shadow *shadow_create(const scene *world, const trace_bvh *bvh, const environmen
 bool shadow_surround(shadow *s, const environment *surroundings, cli_error *error) {
     shadow_around_free(&s->around);
     memset(&s->around, 0, sizeof s->around);
+    s->ground = surroundings && surroundings->ground;
     return shadow_around_create(surroundings, &s->around) || fail_memory(s->scene->name, error);
 }
 
@@ -81,6 +84,12 @@ static int spacing_of(const shadow *s, const render_surfaces *surfaces) {
     return s->settings.apart && surfaces->camera.sample == 0 ? 4 : 2;
 }
 
+static int rays_of(const shadow *s) {
+    if (s->settings.rays > 0)
+        return s->settings.rays;
+    return shadow_around_shines(&s->around) ? SHADOW_RAYS_AROUND : SHADOW_RAYS_DEFAULT;
+}
+
 static shadow_job job_of(shadow *s, const render_frame *frame, const render_surfaces *surfaces) {
     const bool shines = shadow_around_shines(&s->around);
     shadow_job job = {
@@ -92,7 +101,7 @@ static shadow_job job_of(shadow *s, const render_frame *frame, const render_surf
                   .settings = { .bands = frame->bands, .window = frame->window } },
         .hits = surfaces->hits,
         .sources = s->sources,
-        .rays = s->settings.rays,
+        .rays = rays_of(s),
         .spacing = spacing_of(s, surfaces),
         .sample = sample_of(s, surfaces),
         .seed = shadow_hash(s->settings.seed, (uint32_t)sample_of(s, surfaces)),
@@ -100,6 +109,13 @@ static shadow_job job_of(shadow *s, const render_frame *frame, const render_surf
     job.source_count = shadow_sources_make(frame->lights, frame->light_count,
                                            shines ? &s->around : NULL, s->sources);
     return job;
+}
+
+/* A row of pixels with the ground beneath. */
+static void fill_row(const shadow *s, const render_surfaces *surfaces, int y, render_tile *row) {
+    render_surfaces_tile(surfaces, 0, y, surfaces->width, 1, row);
+    if (s->ground)
+        shadow_ground_lay(s->scene, &surfaces->camera, y, row);
 }
 
 static bool send_rays(shadow *s, const shadow_job *job, const render_surfaces *surfaces) {
@@ -114,13 +130,14 @@ static bool send_rays(shadow *s, const shadow_job *job, const render_surfaces *s
 #pragma omp for schedule(dynamic, 4)
         for (int y = 0; y < s->planes.height; y++)
             if (ok) {
-                render_surfaces_tile(surfaces, 0, y, surfaces->width, 1, &row);
+                fill_row(s, surfaces, y, &row);
                 rays += shadow_rays_row(job, &row, y, weights, &s->planes);
             }
         if (mine)
             render_tile_free(&row);
         free(weights);
     }
+    s->statistics.rays_a_pixel = job->rays;
     s->statistics.rays = rays;
     return ok;
 }
@@ -132,6 +149,12 @@ static float ratio_of(const shadow_planes *planes, int channel, size_t pixel) {
     return all > 0 && unhidden < all ? unhidden / all : 1;
 }
 
+/* The ground emits nothing. */
+static lmp_rgb emission_of(const render_surfaces *surfaces, size_t pixel) {
+    return surfaces->seen[pixel] < RENDER_SEES_LIGHT ? render_surfaces_emission(surfaces, pixel)
+                                                     : (lmp_rgb) { 0, 0, 0 };
+}
+
 static void apply(const shadow *s, const render_surfaces *surfaces, float *rgba) {
     const ptrdiff_t count = (ptrdiff_t)s->planes.width * s->planes.height;
 #pragma omp parallel for
@@ -141,7 +164,7 @@ static void apply(const shadow *s, const render_surfaces *surfaces, float *rgba)
                   s->planes.values[SHADOW_ALL + 2][pixel] >
               0))
             continue;
-        const lmp_rgb glow = render_surfaces_emission(surfaces, pixel);
+        const lmp_rgb glow = emission_of(surfaces, pixel);
         const float emission[3] = { glow.r, glow.g, glow.b };
         for (int c = 0; c < 3; c++) {
             float *radiance = &rgba[4 * pixel + (size_t)c];
@@ -181,7 +204,7 @@ static bool reuse(const shadow *s, const render_surfaces *surfaces, float *rgba)
 #pragma omp for schedule(dynamic, 4)
         for (int y = 0; y < s->planes.height; y++)
             if (mine) {
-                render_surfaces_tile(surfaces, 0, y, surfaces->width, 1, &row);
+                fill_row(s, surfaces, y, &row);
                 shadow_reuse_row(&s->planes, &row, y, rgba);
             }
         if (mine)

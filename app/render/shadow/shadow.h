@@ -9,7 +9,7 @@
 #include "app/trace/trace.h"
 
 typedef struct shadow_settings {
-    int rays;      /* a pixel, 1 … SHADOW_RAYS_MAX */
+    int rays;      /* per pixel, 1 … SHADOW_RAYS_MAX; 0: as suits */
     uint32_t seed; /* of the noise: the same seed gives the same bits on any number of threads */
     bool raw;      /* without the filter */
     bool sparse;   /* of two neighboring pixels one sends rays */
@@ -17,45 +17,53 @@ typedef struct shadow_settings {
 } shadow_settings;
 #define SHADOW_RAYS_MAX     1024
 #define SHADOW_RAYS_DEFAULT 2
+#define SHADOW_RAYS_AROUND                                                                         \
+    8 /* where an environment shines: from all sides, all of it half-shadow */
 
-/* What a command line says of shadows; the settings begin as SHADOW_DEFAULTS. */
+/* What a command line says of shadows. Zero is the default. */
 typedef struct shadow_options {
-    bool on, off; /* off counts more */
+    bool on, off; /* off counts more; neither: as suits */
+    bool rays_given;
     shadow_settings settings;
 } shadow_options;
-#define SHADOW_DEFAULTS                                                                            \
-    {                                                                                              \
-        .settings = {.rays = SHADOW_RAYS_DEFAULT }                                                 \
-    }
-#define SHADOW_SWITCH_ROWS(variable)                                                               \
+
+/* Whether they are cast in such surroundings of a scene of so many lights. */
+static inline bool shadow_wanted(const shadow_options *options, const environment *surroundings,
+                                 const scene *seen, size_t light_count) {
+    return !options->off &&
+           (options->on || environment_suits_shadows(surroundings->studio, seen, light_count));
+}
+#define SHADOW_SUITS "the default, except where the studio alone lights a scene seen from inside"
+#define SHADOW_SWITCH_ROWS(variable, suits)                                                        \
     { .name = "shadows",                                                                           \
       .kind = CLI_FLAG,                                                                            \
       .target = &(variable).on,                                                                    \
-      .help = "let surfaces hide lights, by rays on the CPU whatever the device" },                \
+      .help = "let surfaces hide lights, by rays on the CPU whatever the device; " suits },        \
     {                                                                                              \
         .name = "no-shadows", .kind = CLI_FLAG, .target = &(variable).off,                         \
-        .help = "let no surface hide a light, which is the default"                                \
+        .help = "let no surface hide a light, as in the paper; faster"                             \
     }
 #define SHADOW_OPTION_ROWS(variable)                                                               \
-    SHADOW_SWITCH_ROWS(variable),                                                                  \
+    SHADOW_SWITCH_ROWS(variable, SHADOW_SUITS),                                                    \
         { .name = "no-shadow-filter",                                                              \
           .kind = CLI_FLAG,                                                                        \
           .target = &(variable).settings.raw,                                                      \
-          .help = "leave the noise of --shadows, whose mean over many samples is exact" },         \
+          .help = "leave the noise of shadows, whose mean over many samples is exact" },           \
         { .name = "shadow-sparse",                                                                 \
           .kind = CLI_FLAG,                                                                        \
           .target = &(variable).settings.sparse,                                                   \
-          .help = "rays of --shadows from one of two neighboring pixels" },                        \
+          .help = "rays of shadows from one of two neighboring pixels" },                          \
     {                                                                                              \
         .name = "shadow-rays", .kind = CLI_INT, .target = &(variable).settings.rays,               \
         .argument = "N",                                                                           \
-        .help = "rays of --shadows for each sample that sends them: the first of a pixel, and "    \
-                "every third one after it",                                                        \
-        .minimum = 1, .maximum = SHADOW_RAYS_MAX                                                   \
+        .help = "rays of shadows for each sample that sends them: the first of a pixel, and "      \
+                "every third one after it; without it 2, and 8 where an environment shines",       \
+        .minimum = 1, .maximum = SHADOW_RAYS_MAX, .given = &(variable).rays_given                  \
     }
 
 /* Of the last sample that sent rays. */
 typedef struct shadow_statistics {
+    int rays_a_pixel;
     size_t rays; /* toward lights */
     double rays_milliseconds, filter_milliseconds;
 } shadow_statistics;

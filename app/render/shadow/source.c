@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/shadow/source.h"
 
+#include "app/render/shadow/toward.h"
 #include "app/scene/vector.h"
 #include "app/trace/wide.h"
 
@@ -237,18 +238,6 @@ static void see(const source_lanes *lanes, const shadow_vectors *positions, seen
     }
 }
 
-/* Of an angle in parts of a circle, 0 … 1, within 4e-7: by their series in the eighth of a circle
- * on either side of the nearest quarter. */
-static void sine_cosine(float part, float *sine, float *cosine) {
-    const int quarter = (int)(4 * part + 0.5f);
-    const float x = (4 * part - (float)quarter) * (PI / 2), x2 = x * x;
-    const float s = x * (1 - x2 / 6 * (1 - x2 / 20 * (1 - x2 / 42)));
-    const float c = 1 - x2 / 2 * (1 - x2 / 12 * (1 - x2 / 30 * (1 - x2 / 56)));
-    const float up = quarter & 1 ? c : s, right = quarter & 1 ? s : c;
-    *sine = quarter & 2 ? -up : up;
-    *cosine = (quarter + 1) & 2 ? -right : right;
-}
-
 /* Off the axis by the part u of the cap, the part v of a turn around it: in an orthonormal basis
  * without branches at the poles (Duff et al. 2017). */
 static void leave_axis(const seen_lanes *seen, const shadow_lanes u, const shadow_lanes v,
@@ -258,7 +247,7 @@ static void leave_axis(const seen_lanes *seen, const shadow_lanes u, const shado
         const float x = seen->axis.of[0][i], y = seen->axis.of[1][i], z = seen->axis.of[2][i];
         const float sign = copysignf(1, z), a = -1 / (sign + z), b = x * y * a;
         float sine, cosine;
-        sine_cosine(v[i], &sine, &cosine);
+        shadow_sine_cosine(v[i], &sine, &cosine);
         const float across = off * cosine, along = off * sine;
         direction->of[0][i] = x * (1 - t) + (1 + sign * x * x * a) * across + b * along;
         direction->of[1][i] = y * (1 - t) + sign * b * across + (sign + y * y * a) * along;
@@ -308,18 +297,20 @@ static void draw_point(const shadow_source *source, const seen_lanes *seen, int 
     shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
 }
 
-static void draw_around(const shadow_source *source, float u, float v, int lane,
-                        shadow_samples *samples) {
+static void draw_around(const shadow_source *source, const shadow_points *points, float u, float v,
+                        int lane, shadow_samples *samples) {
     lmp_rgb arrives;
-    shadow_set_lane(&samples->direction, lane, shadow_around_draw(source->around, u, v, &arrives));
+    shadow_set_lane(&samples->direction, lane,
+                    points ? shadow_draw_toward(source->around, points, lane, u, v, &arrives)
+                           : shadow_around_draw(source->around, u, v, &arrives));
     shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
     samples->length[lane] = INFINITY;
     samples->size[lane] = 1;
 }
 
 void shadow_sources_draw(const shadow_source *const sources[SHADOW_LANES],
-                         const shadow_vectors *positions, const shadow_lanes u,
-                         const shadow_lanes v, shadow_samples *samples) {
+                         const shadow_vectors *positions, const shadow_points *points,
+                         const shadow_lanes u, const shadow_lanes v, shadow_samples *samples) {
     source_lanes lanes;
     seen_lanes seen;
     collect(sources, &lanes);
@@ -328,6 +319,6 @@ void shadow_sources_draw(const shadow_source *const sources[SHADOW_LANES],
         if (sources[i]->kind == SHADOW_POINT)
             draw_point(sources[i], &seen, i, samples);
         if (sources[i]->kind == SHADOW_AROUND)
-            draw_around(sources[i], u[i], v[i], i, samples);
+            draw_around(sources[i], points, u[i], v[i], i, samples);
     }
 }

@@ -41,9 +41,10 @@ typedef struct shadow_samples {
 } shadow_samples;
 
 /* One for each of the positions, of the source that stands there, by the uniform numbers u and v.
- */
+ * Where they are those of `points`, which may be NULL, directions to the environment are drawn by
+ * what these reflect as well as by what shines. */
 void shadow_sources_draw(const shadow_source *const sources[SHADOW_LANES],
-                         const shadow_vectors *positions, const shadow_lanes u,
-                         const shadow_lanes v, shadow_samples *samples);
+                         const shadow_vectors *positions, const shadow_points *points,
+                         const shadow_lanes u, const shadow_lanes v, shadow_samples *samples);
 
 #endif

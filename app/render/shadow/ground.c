@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/shadow/ground.h"
+
+#include "app/scene/vector.h"
+
+/* The ground reaches as far as so many radii of the scene: from there on it hides less than a
+ * thousandth of the sky. */
+static const float reach_radii = 30;
+
+/* A disk around the point under the middle of the scene. */
+typedef struct disk {
+    lmp_vec3 middle;
+    float radius;
+} disk;
+
+static disk disk_under(const scene *s) {
+    const lmp_vec3 low = vec_load(s->minimum), high = vec_load(s->maximum);
+    const lmp_vec3 center = vec_scale(vec_add(low, high), 0.5f);
+    return (disk) { vec(center.x, low.y, center.z),
+                    reach_radii * 0.5f * vec_length(vec_sub(high, low)) };
+}
+
+/* Where a ray meets it from above; directions are as long as render_camera has them. */
+static bool meets(const disk *ground, lmp_vec3 origin, lmp_vec3 direction, float far,
+                  lmp_vec3 *at) {
+    const float above = origin.y - ground->middle.y;
+    if (!(above > 0 && direction.y < 0))
+        return false;
+    const float depth = above / -direction.y;
+    *at = vec_add(origin, vec_scale(direction, depth));
+    at->y = ground->middle.y;
+    return depth < far && vec_length(vec_sub(*at, ground->middle)) < ground->radius;
+}
+
+static void set_surface(render_tile *row, int x, lmp_vec3 at, lmp_vec3 view) {
+    static const lmp_material white = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                                        .base_color = { 1, 1, 1 },
+                                        .roughness = 1,
+                                        .dielectric = { .given = true } };
+    const float position[3] = { at.x, at.y, at.z }, normal[3] = { 0, 1, 0 };
+    const float to_camera[3] = { view.x, view.y, view.z };
+    for (int c = 0; c < 3; c++) {
+        row->position[c][x] = position[c];
+        row->normal[c][x] = normal[c];
+        row->view[c][x] = to_camera[c];
+        row->emission[c][x] = 0;
+    }
+    row->kind[x] = RENDER_SURFACE;
+    row->ambient[x] = 1;
+    row->material[x] = white;
+}
+
+void shadow_ground_lay(const scene *s, const render_camera *camera, int y, render_tile *row) {
+    const disk ground = disk_under(s);
+    for (int x = 0; x < camera->width; x++) {
+        float o[3], d[3];
+        lmp_vec3 at;
+        if (row->kind[x] != RENDER_NONE)
+            continue;
+        render_camera_rays(camera, &x, &y, 1, (float *[3]) { &o[0], &o[1], &o[2] },
+                           (float *[3]) { &d[0], &d[1], &d[2] });
+        const lmp_vec3 direction = vec_load(d);
+        if (meets(&ground, vec_load(o), direction, camera->far, &at))
+            set_surface(row, x, at, vec_scale(direction, -1 / vec_length(direction)));
+    }
+}

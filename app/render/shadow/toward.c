@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/shadow/toward.h"
+
+/* Of all directions, those drawn by brightness. */
+static const float by_brightness = 0.4f;
+
+/* The parts in which a point's directions are drawn: by brightness, by the cosine with its normal,
+ * and by lobes around where it, and its coat, mirror the view. */
+typedef struct mixture {
+    float bright, diffuse, lobe, coat;
+} mixture;
+
+static mixture mixture_of(const shadow_points *p, int lane) {
+    const float diffuse = p->albedo[lane], lobe = p->shine[lane];
+    const float coat = p->coated ? p->coat[lane] : 0, sum = diffuse + lobe + coat;
+    const float scale = sum > 0 ? (1 - by_brightness) / sum : 0;
+    return (mixture) { sum > 0 ? by_brightness : 1, scale * diffuse, scale * lobe, scale * coat };
+}
+
+/* A unit direction off a unit axis by 1 - cosine t, and by the part v of a turn around it. */
+static lmp_vec3 leave(lmp_vec3 axis, float t, float v) {
+    const lmp_vec3 other = fabsf(axis.x) < 0.5f ? vec(1, 0, 0) : vec(0, 1, 0);
+    const lmp_vec3 right = vec_normalize(vec_cross(other, axis), other);
+    const lmp_vec3 up = vec_cross(axis, right);
+    const float off = sqrtf(t * (2 - t));
+    float sine, cosine;
+    shadow_sine_cosine(v, &sine, &cosine);
+    return vec_add(vec_scale(axis, 1 - t),
+                   vec_add(vec_scale(right, off * cosine), vec_scale(up, off * sine)));
+}
+
+static float cosine_density(lmp_vec3 normal, lmp_vec3 w) {
+    const float along = vec_dot(normal, w);
+    return along > 0 ? along / PI : 0;
+}
+
+/* Of (1 + a²) a² / (4 pi (a² + t / 2)²) by 1 - cosine t with the axis: as wide as GGX's lobe of
+ * this a², with an integral that has an inverse. */
+static float lobe_density(lmp_vec3 axis, float a2, lmp_vec3 w) {
+    const float off = a2 + 0.5f * fmaxf(1 - vec_dot(axis, w), 0);
+    return (1 + a2) * a2 / (4 * PI * off * off);
+}
+
+static lmp_vec3 draw_lobe(lmp_vec3 axis, float a2, float u, float v) {
+    return leave(axis, 2 * u * a2 / (1 + a2 - u), v);
+}
+
+static lmp_vec3 draw_cosine(lmp_vec3 normal, float u, float v) {
+    return leave(normal, 1 - sqrtf(1 - u), v);
+}
+
+/* u falls on one of the parts, within which it is uniform again. */
+static lmp_vec3 draw(const mixture *part, const shadow_around *around, const shadow_points *p,
+                     int lane, float u, float v) {
+    lmp_rgb unused;
+    if (u < part->bright)
+        return shadow_around_draw(around, u / part->bright, v, &unused);
+    u -= part->bright;
+    if (u < part->diffuse)
+        return draw_cosine(shadow_lane(&p->normal, lane), u / part->diffuse, v);
+    u -= part->diffuse;
+    if (u < part->lobe || !(part->coat > 0))
+        return draw_lobe(shadow_lane(&p->mirror, lane), p->alpha2[lane], fminf(u / part->lobe, 1),
+                         v);
+    u -= part->lobe;
+    return draw_lobe(shadow_lane(&p->coat_mirror, lane), p->coat_alpha2[lane],
+                     fminf(u / part->coat, 1), v);
+}
+
+lmp_vec3 shadow_draw_toward(const shadow_around *around, const shadow_points *p, int lane, float u,
+                            float v, lmp_rgb *arrives) {
+    const mixture part = mixture_of(p, lane);
+    const lmp_vec3 w = draw(&part, around, p, lane, u, v);
+    float density;
+    const lmp_rgb radiance = shadow_around_look(around, w, &density);
+    density *= part.bright;
+    density += part.diffuse * cosine_density(shadow_lane(&p->normal, lane), w);
+    density += part.lobe * lobe_density(shadow_lane(&p->mirror, lane), p->alpha2[lane], w);
+    if (part.coat > 0)
+        density +=
+            part.coat * lobe_density(shadow_lane(&p->coat_mirror, lane), p->coat_alpha2[lane], w);
+    *arrives = rgb_scale(radiance, density > 0 ? 1 / density : 0);
+    return w;
+}
