@@ -10,17 +10,22 @@ enum { RUNS = 3 };
 
 /* --- devices ---------------------------------------------------------------------------------- */
 
-bool paper_devices_open(const paper *p, const paper_scene *from, paper_devices *d,
-                        cli_error *error) {
-    cli_error why;
+static bool open_cpu(const paper_scene *from, paper_devices *d, cli_error *error) {
     memset(d, 0, sizeof *d);
     d->from = from;
     if (!paper_scene_load(from, &d->world, error))
         return false;
-    if (!render_device_open(DEVICE_CPU, NULL, &d->world, &d->cpu, error)) {
-        scene_free(&d->world);
+    if (render_device_open(DEVICE_CPU, NULL, &d->world, &d->cpu, error))
+        return true;
+    scene_free(&d->world);
+    return false;
+}
+
+bool paper_devices_open(const paper *p, const paper_scene *from, paper_devices *d,
+                        cli_error *error) {
+    cli_error why;
+    if (!open_cpu(from, d, error))
         return false;
-    }
     if (p->options->quick && !render_finds_gpu())
         snprintf(d->note, sizeof d->note, "A quick page asks OpenGL only where there is a GPU.");
     else if (render_device_open(DEVICE_GPU, NULL, &d->world, &d->gl, &why))
@@ -113,6 +118,31 @@ bool paper_draw(const paper_devices *d, device_kind device, const render_frame *
                     renderer_draw(s.renderer, &s.frame, NULL, error) &&
                     renderer_read_image(s.renderer, pixels, error);
     end(&s);
+    return ok;
+}
+
+bool paper_expose(const paper_devices *d, const int size[2], const char *assignment,
+                  float *exposure, cli_error *error) {
+    const render_frame frame = paper_frame(size, METHOD_ZONAL, LMP_SHADE_BANDS_DEFAULT);
+    image pixels;
+    session s;
+    const bool ok = begin(&s, d, DEVICE_CPU, &frame, assignment, error) &&
+                    renderer_meter(s.renderer, &s.frame, &pixels, error);
+    end(&s);
+    if (!ok)
+        return false;
+    *exposure = image_auto_exposure(&pixels);
+    image_free(&pixels);
+    return true;
+}
+
+bool paper_expose_scene(const paper_scene *from, const int size[2], float *exposure,
+                        cli_error *error) {
+    paper_devices d;
+    if (!open_cpu(from, &d, error))
+        return false;
+    const bool ok = paper_expose(&d, size, NULL, exposure, error);
+    paper_devices_close(&d);
     return ok;
 }
 

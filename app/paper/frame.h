@@ -45,6 +45,13 @@ bool paper_draw(const paper_devices *devices, device_kind device, const render_f
 bool paper_time(const paper_devices *devices, device_kind device, const render_frame *frame,
                 const char *assignment, paper_times *times, cli_error *error);
 
+/* The exposure that lit surfaces ask for, as in `render`: of the devices' scene, with a material of
+ * it replaced or not, and of a scene alone. */
+bool paper_expose(const paper_devices *devices, const int size[2], const char *assignment,
+                  float *exposure, cli_error *error);
+bool paper_expose_scene(const paper_scene *from, const int size[2], float *exposure,
+                        cli_error *error);
+
 /* The frame of a claim that took least, in all. */
 typedef struct paper_fastest {
     paper_times ms;

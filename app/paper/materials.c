@@ -231,9 +231,9 @@ static bool show_figure(paper *p, const materials_figure *f, cli_error *error) {
     return true;
 }
 
-/* One image of a row, with the exposure of the row's first, the ground truth. */
+/* One image of a row. */
 static bool show(paper *p, const paper_material *m, const char *kind, const char *caption,
-                 float *exposure, cli_error *error) {
+                 float exposure, cli_error *error) {
     char from[64], to[64], file[32];
     image pixels;
     snprintf(file, sizeof file, "%s.exr", kind);
@@ -242,8 +242,7 @@ static bool show(paper *p, const paper_material *m, const char *kind, const char
     name_file(m, file, to);
     if (!image_read(from, IMAGE_READ_PIXELS, &pixels, error))
         return false;
-    *exposure = *exposure > 0 ? *exposure : image_auto_exposure(&pixels);
-    const bool ok = image_write(&pixels, to, &(image_display) { .exposure = *exposure }, error);
+    const bool ok = image_write(&pixels, to, &(image_display) { .exposure = exposure }, error);
     image_free(&pixels);
     if (ok)
         page_image(&p->page, to, caption);
@@ -251,20 +250,22 @@ static bool show(paper *p, const paper_material *m, const char *kind, const char
 }
 
 /* A row for each material: ground truth, then its bands. */
-static bool show_rows(paper *p, cli_error *error) {
+static bool show_rows(paper *p, const materials_figure *f, cli_error *error) {
     bool ok = true;
     for (int i = 0; i < PAPER_MATERIALS && ok; i++) {
         const paper_material *m = &p->data.materials[i];
         char caption[200], kind[16];
-        float exposure = 0;
+        float exposure;
+        if (!paper_expose(&f->devices, f->judged_size, m->value, &exposure, error))
+            return false;
         page_row_begin(&p->page);
         snprintf(caption, sizeof caption, "(%s) %s: ground truth", m->letter, m->label);
-        ok = show(p, m, "truth", caption, &exposure, error);
+        ok = show(p, m, "truth", caption, exposure, error);
         for (int c = 0; c < MATERIALS_COUNTS && ok; c++) {
             snprintf(kind, sizeof kind, "%d", materials_bands[c]);
             snprintf(caption, sizeof caption, "(%s) %s: %d bands", m->letter, m->label,
                      materials_bands[c]);
-            ok = !has_bands(p, i, c) || show(p, m, kind, caption, &exposure, error);
+            ok = !has_bands(p, i, c) || show(p, m, kind, caption, exposure, error);
         }
         page_row_end(&p->page);
     }
@@ -310,7 +311,7 @@ static bool make(paper *p, materials_figure *f, cli_error *error) {
               "itself.%s",
               f->judged_size[0], f->judged_size[1],
               p->options->quick ? " A quick page leaves out 100 bands." : "");
-    if (!judge_all(p, f, error) || !show_rows(p, error) || !materials_write_times(p, f, error))
+    if (!judge_all(p, f, error) || !show_rows(p, f, error) || !materials_write_times(p, f, error))
         return false;
     claim_few(p, f);
     if (has_bands(p, 3, MATERIALS_COUNTS - 1))

@@ -124,14 +124,16 @@ static bool trace(paper *p, const figure *f, bool show, int seed, const char *fi
                      f->from->words, f->judged_size[0], f->judged_size[1], f->samples, seed, file);
 }
 
-/* Traces the ground truth; *exposure is its own, for all images of the figure. */
-static bool trace_truth(paper *p, const figure *f, float *exposure, cli_error *error) {
+/* Traces the ground truth, and finds the exposure of all images of the figure. */
+static bool trace_truth(paper *p, const figure *f, const paper_devices *devices, float *exposure,
+                        cli_error *error) {
     char file[64], caption[160];
     image truth;
     snprintf(file, sizeof file, "%s-truth.exr", f->name);
-    if (!trace(p, f, true, 1, file, error) || !image_read(file, IMAGE_READ_PIXELS, &truth, error))
+    if (!paper_expose(devices, f->judged_size, NULL, exposure, error) ||
+        !trace(p, f, true, 1, file, error) || !image_read(file, IMAGE_READ_PIXELS, &truth, error))
         return false;
-    *exposure = image_auto_exposure(&truth) * image_exposure_of_stops(f->stops);
+    *exposure *= image_exposure_of_stops(f->stops);
     snprintf(file, sizeof file, "%s-truth.png", f->name);
     const bool ok = image_write(&truth, file, &(image_display) { .exposure = *exposure }, error);
     image_free(&truth);
@@ -329,7 +331,8 @@ static bool make_figure(paper *p, const figure *f, cli_error *error) {
         return false;
     o.lights = devices.world.light_count;
     const bool ok = draw_judged(f, &devices, error) && time_shown(f, &devices, &o, error) &&
-                    trace_truth(p, f, &o.exposure, error) && show_images(p, f, &o, error) &&
+                    trace_truth(p, f, &devices, &o.exposure, error) &&
+                    show_images(p, f, &o, error) &&
                     (f->detail_count == 0 || show_details(p, f, error)) &&
                     write_times(p, f, &devices, &o, error) && judge(p, f, error);
     cli_progress_end();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Light that stops at walls: scenes of the paper with and without shadows. */
-#include "app/paper/paper.h"
+#include "app/paper/frame.h"
 #include "app/timing/timing.h"
 
 typedef struct subject {
@@ -34,17 +34,15 @@ static bool run(paper *p, const subject *s, const char *command, const char *opt
                      s->size[0], s->size[1], options, file);
 }
 
-/* As a .png; *exposure is the image's own where it is 0. */
-static bool show(paper *p, const char *file, const char *caption, float *exposure,
+/* As a .png. */
+static bool show(paper *p, const char *file, const char *caption, float exposure,
                  cli_error *error) {
     char shown[80];
     image pixels;
     if (!image_read(file, IMAGE_READ_PIXELS, &pixels, error))
         return false;
-    if (*exposure == 0)
-        *exposure = image_auto_exposure(&pixels);
     snprintf(shown, sizeof shown, "%s.png", file);
-    const bool ok = image_write(&pixels, shown, &(image_display) { .exposure = *exposure }, error);
+    const bool ok = image_write(&pixels, shown, &(image_display) { .exposure = exposure }, error);
     image_free(&pixels);
     if (ok)
         page_image(&p->page, shown, caption);
@@ -60,17 +58,19 @@ static bool draw(paper *p, const subject *s, const drawing *d, const char *truth
         return false;
     result->seconds = timing_now() - start;
     return paper_compare(file, truth, &result->difference, error) &&
-           (!d->caption || show(p, file, d->caption, &exposure, error));
+           (!d->caption || show(p, file, d->caption, exposure, error));
 }
 
 static bool draw_all(paper *p, const subject *s, outcome results[DRAWINGS], cli_error *error) {
     char truth[64], options[64];
-    float exposure = 0;
+    float exposure;
     snprintf(truth, sizeof truth, "shadows-%s-truth.exr", s->name);
     snprintf(options, sizeof options, "--shadows --spp %d", s->samples);
+    if (!paper_expose_scene(s->from, s->size, &exposure, error))
+        return false;
     page_row_begin(&p->page);
     bool ok = run(p, s, "reference", options, truth, error) &&
-              show(p, truth, "Ground truth with shadows", &exposure, error);
+              show(p, truth, "Ground truth with shadows", exposure, error);
     for (int i = 0; i < DRAWINGS && ok; i++)
         ok = draw(p, s, &drawings[i], truth, exposure, &results[i], error);
     page_row_end(&p->page);
