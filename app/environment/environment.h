@@ -109,6 +109,10 @@ static inline bool environment_suits_shadows(bool studio, const scene *seen, siz
 /* Makes its coefficients, of so many bands at least. */
 bool environment_project(environment *e, int bands, cli_error *error);
 
+/* Where a direction of any length falls on its images, 0 … 1 across and down, by arithmetic whose
+ * bits are the same everywhere. */
+void environment_place(const environment *e, const float direction[3], float *across, float *down);
+
 /* What is seen of it in a direction of any length, interpolated between pixels; backdrop.glsl does
  * the same. */
 lmp_rgb environment_seen(const environment *e, const float direction[3]);

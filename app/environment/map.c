@@ -80,11 +80,17 @@ static float angle_of(float y, float x) {
     return copysignf(angle, y);
 }
 
+void environment_place(const environment *e, const float d[3], float *across, float *down) {
+    const float turns = (angle_of(d[2], d[0]) - e->azimuth) / (2 * (float)pi) + 0.5f;
+    *across = turns - floorf(turns);
+    *down = angle_of(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) / (float)pi;
+}
+
 lmp_rgb environment_seen(const environment *e, const float d[3]) {
     const image *map = &e->backdrop;
-    const float turns = (angle_of(d[2], d[0]) - e->azimuth) / (2 * (float)pi) + 0.5f;
-    const float polar = angle_of(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) / (float)pi;
-    const float u = (turns - floorf(turns)) * (float)map->width - 0.5f;
+    float turns, polar;
+    environment_place(e, d, &turns, &polar);
+    const float u = turns * (float)map->width - 0.5f;
     const float v = fminf(fmaxf(polar * (float)map->height - 0.5f, 0), (float)map->height - 1);
     const int x = (int)floorf(u), y = (int)v;
     const float across = u - floorf(u), down = v - (float)y;

@@ -124,17 +124,14 @@ static lmp_rgb background_of(const render_surfaces *s, const float view[3]) {
     return (lmp_rgb) { background[0], background[1], background[2] };
 }
 
-static lmp_rgb beyond(const render_surfaces *s, size_t pixel, const float view[3]) {
-    const uint32_t seen = s->seen[pixel];
-    return seen == RENDER_SEES_NOTHING ? background_of(s, view)
-                                       : light_of(s, seen - RENDER_SEES_LIGHT);
-}
-
 lmp_rgb render_surfaces_beyond(const render_surfaces *s, int x, int y) {
     float view[3];
     float *const planes[3] = { &view[0], &view[1], &view[2] };
+    const uint32_t seen = s->seen[render_surfaces_at(s, x, y)];
+    if (seen != RENDER_SEES_NOTHING)
+        return light_of(s, seen - RENDER_SEES_LIGHT);
     render_camera_views(&s->camera, x, y, 1, planes);
-    return beyond(s, render_surfaces_at(s, x, y), view);
+    return background_of(s, view);
 }
 
 static lmp_rgb color_at(float *const planes[3], size_t pixel) {
@@ -178,17 +175,13 @@ static void fill_span(const render_surfaces *s, size_t first, size_t count, size
     for (size_t i = 0; i < count; i++) {
         const size_t pixel = first + i, to = at + i;
         const uint32_t seen = s->seen[pixel];
-        const float view[3] = { tile->view[0][to], tile->view[1][to], tile->view[2][to] };
-        const lmp_rgb emission =
-            seen < RENDER_SEES_LIGHT ? render_surfaces_emission(s, pixel) : beyond(s, pixel, view);
-        tile->emission[0][to] = emission.r;
-        tile->emission[1][to] = emission.g;
-        tile->emission[2][to] = emission.b;
         tile->kind[to] = seen == RENDER_SEES_NOTHING ? RENDER_NONE
                          : seen >= RENDER_SEES_LIGHT ? RENDER_LIGHT
                                                      : RENDER_SURFACE;
         if (tile->kind[to] != RENDER_SURFACE)
             continue;
+        for (int c = 0; c < 3; c++)
+            tile->emission[c][to] = s->emission[c][pixel];
         if (i > 0 && are_alike(s, pixel, pixel - 1))
             tile->material[to] = tile->material[to - 1];
         else

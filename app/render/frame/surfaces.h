@@ -58,13 +58,13 @@ render_rectangle render_tile_at(int width, int height, int number);
 
 typedef enum render_kind { RENDER_NONE, RENDER_LIGHT, RENDER_SURFACE } render_kind;
 
-/* Pixels side by side as the library takes them. Only emission and kind mean something where the
- * kind is not RENDER_SURFACE; radiance = emission + what lmp_shade gives for a surface. */
+/* Pixels side by side as the library takes them. The kind alone means something where it is not
+ * RENDER_SURFACE; radiance = emission + what lmp_shade gives for a surface. */
 typedef struct render_tile {
     unsigned char *kind; /* render_kind */
     float *position[3], *normal[3], *view[3];
     float *coat_normal[3]; /* where the surfaces are layered */
-    float *emission[3];    /* what is seen of a light, and of what is past everything, too */
+    float *emission[3];
     float *ambient;
     lmp_material *material;
 } render_tile;

@@ -5,17 +5,12 @@
 
 #include <stdlib.h>
 
-static double cosine_of(const image *map, double row) {
-    return cos((double)PI * row / map->height);
-}
-
 static double brightness_of(const float *rgb) {
     return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3;
 }
 
-/* Sums what comes from one row; returns all of it. */
-static double add_row(const image *map, int row, double *columns, double mean[3]) {
-    const double height = cosine_of(map, row) - cosine_of(map, row + 1);
+/* Sums what comes from one row of so much height; returns all of it. */
+static double add_row(const image *map, int row, double height, double *columns, double mean[3]) {
     const double solid_angle = height * 2 * (double)PI / map->width;
     double sum = 0;
     for (int x = 0; x < map->width; x++) {
@@ -37,12 +32,16 @@ bool shadow_around_create(const environment *source, shadow_around *around) {
     double sum = 0, mean[3] = { 0 };
     around->columns = malloc(width * height * sizeof *around->columns);
     around->rows = malloc(height * sizeof *around->rows);
-    if (!around->columns || !around->rows) {
+    around->cosines = malloc((height + 1) * sizeof *around->cosines);
+    if (!around->columns || !around->rows || !around->cosines) {
         shadow_around_free(around);
         return false;
     }
+    for (size_t y = 0; y <= height; y++)
+        around->cosines[y] = cos((double)PI * (double)y / (double)height);
     for (size_t y = 0; y < height; y++)
-        around->rows[y] = sum += add_row(map, (int)y, around->columns + y * width, mean);
+        around->rows[y] = sum += add_row(map, (int)y, around->cosines[y] - around->cosines[y + 1],
+                                         around->columns + y * width, mean);
     around->mean = (lmp_rgb) { (float)mean[0], (float)mean[1], (float)mean[2] };
     return true;
 }
@@ -50,6 +49,7 @@ bool shadow_around_create(const environment *source, shadow_around *around) {
 void shadow_around_free(shadow_around *around) {
     free(around->columns);
     free(around->rows);
+    free(around->cosines);
     *around = (shadow_around) { .columns = NULL };
 }
 
@@ -80,7 +80,7 @@ lmp_vec3 shadow_around_draw(const shadow_around *around, float u, float v, lmp_r
     const int row = find(around->rows, map->height, &down);
     const int column = find(around->columns + (size_t)row * width, map->width, &across);
     const float *rgb = map->rgb + 3 * ((size_t)row * width + (size_t)column);
-    const double top = cosine_of(map, row), bottom = cosine_of(map, row + 1);
+    const double top = around->cosines[row], bottom = around->cosines[row + 1];
     const double cosine = top + (bottom - top) * down;
     const double sine = sqrt(fmax((1 - cosine) * (1 + cosine), 0));
     const double turns = (column + across) / map->width - 0.5;
@@ -90,21 +90,15 @@ lmp_vec3 shadow_around_draw(const shadow_around *around, float u, float v, lmp_r
     return vec((float)(sine * cos(azimuth)), (float)cosine, (float)(sine * sin(azimuth)));
 }
 
-/* The row whose pixels a cosine with the zenith falls on. */
-static int find_row(const image *map, double cosine) {
-    const int row = (int)(acos(fmin(fmax(cosine, -1), 1)) / (double)PI * map->height);
-    return row < map->height ? row : map->height - 1;
-}
-
 lmp_rgb shadow_around_look(const shadow_around *around, lmp_vec3 direction, float *density) {
     const image *map = &around->source->light;
-    const double azimuth = atan2((double)direction.z, (double)direction.x);
-    const double turns = (azimuth - (double)around->source->azimuth) / (2 * (double)PI) + 0.5;
-    const int column = (int)((turns - floor(turns)) * map->width);
-    const int row = find_row(map, (double)direction.y);
-    const size_t pixel =
-        (size_t)row * (size_t)map->width + (size_t)(column < map->width ? column : map->width - 1);
-    const float *rgb = map->rgb + 3 * pixel;
+    float across, down;
+    environment_place(around->source, (float[3]) { direction.x, direction.y, direction.z }, &across,
+                      &down);
+    const int column = (int)(across * (float)map->width), row = (int)(down * (float)map->height);
+    const float *rgb =
+        map->rgb + 3 * ((size_t)(row < map->height ? row : map->height - 1) * (size_t)map->width +
+                        (size_t)(column < map->width ? column : map->width - 1));
     *density = (float)(brightness_of(rgb) / around->rows[map->height - 1]);
     return rgb_load(rgb);
 }

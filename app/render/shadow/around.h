@@ -9,6 +9,7 @@ typedef struct shadow_around {
     const environment *source;
     double *columns; /* brightness times solid angle of a row's pixels, each with those before it */
     double *rows;    /* of whole rows in the same way; the last is all */
+    double *cosines; /* with the zenith, of where rows begin and the last one ends */
     lmp_rgb mean;    /* radiance over all directions */
 } shadow_around;
 
