@@ -12,7 +12,10 @@ mkdir -p out/images
 PATH=$(dirname "$program"):$PATH
 export PATH
 cd out/images
+count=0
 for document in "$@"; do
+    count=$((count + 1))
+    echo "images: docs/$document.md, $count of $#" >&2
     mkdir -p blocks
     awk -v folder=blocks -f "$root/tests/docs/blocks.awk" "$root/docs/$document.md" >list
     while read -r number line language annotation; do

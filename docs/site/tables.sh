@@ -123,6 +123,7 @@ compare() {
 
 # one TABLE PERCENT PAGE: measures it, and checks or replaces what the page has.
 one() {
+    [ $check = yes ] || echo "tables: measuring $1" >&2
     awk -v name="<!-- table: $1" 'index($0, name " ") == 1 { on = 1; next } on && !/^\|/ { exit } on' "$3" >"$work/said"
     measure "$1" >"$work/measured"
     [ -s "$work/measured" ] || { echo "tables.sh: $1 is empty" >&2 && return 1; }
