@@ -92,8 +92,7 @@ static bool choose_materials(reference_arguments *a, const scene *world, overrid
 
 /* By default where render does. */
 static void cast_shadows(reference_arguments *a, const scene *world) {
-    a->settings.shadows =
-        shadow_wanted(&a->shadow, a->settings.environment, world, world->light_count);
+    a->settings.shadows = shadow_wanted(&a->shadow, a->settings.environment, world);
 }
 
 static bool render(reference_arguments *a, const char *name, cli_error *error) {

@@ -213,7 +213,7 @@ static bool settle_device(render_job *j, cli_error *error) {
 }
 
 static bool cast_shadows(render_job *j, cli_error *error) {
-    if (!shadow_wanted(&j->options->shadow, &j->around, &j->world, j->world.light_count))
+    if (!shadow_wanted(&j->options->shadow, &j->around, &j->world))
         return true;
     j->shadow = shadow_create(&j->world, render_device_bvh(&j->device), &j->around,
                               &j->options->shadow.settings, error);

@@ -56,17 +56,20 @@ static bool open_studio(const environment_options *options, const scene *world, 
         return false;
     e->azimuth += x * x + z * z > 0 ? (float)atan2((double)z, (double)x) : pi / 2;
     e->studio = true;
+    e->faint = world->lights_chosen || environment_lights_suffice(world) ? 0 : world->light_count;
     return check_radiance(&e->light, options->strength, "studio", error);
 }
 
 const char *environment_choose(const environment_options *options, const scene *world) {
     if (options->name)
         return options->name;
-    if (world->light_count > 0 || world->lights_chosen)
+    if (world->lights_chosen || environment_lights_suffice(world))
         return "none";
     cli_note(world->name,
-             "no lights in it, lit by the built-in studio (--environment, --lights and "
-             "--random-lights choose others)");
+             "%s, lit by the built-in studio (--environment, --lights and --random-lights choose "
+             "others)",
+             world->light_count > 0 ? "what glows in it lights little of what is seen"
+                                    : "no lights in it");
     return "studio";
 }
 

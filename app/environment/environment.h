@@ -33,7 +33,7 @@ typedef struct environment_options {
       .target = &(variable).name,                                                                  \
       .argument = "FILE",                                                                          \
       .help = "ambient light: a .hdr, .exr or .png of the surroundings, studio, or none; "         \
-              "without it, studio where nothing else shines" },                                    \
+              "without it, studio where little else shines" },                                     \
         { .name = "environment-rotation",                                                          \
           .kind = CLI_FLOAT,                                                                       \
           .target = &(variable).rotation,                                                          \
@@ -66,6 +66,7 @@ typedef struct environment {
     float azimuth;  /* of the center columns, radians from +x toward +z */
     bool studio;    /* it is the built-in one */
     bool ground;    /* shadows fall on level ground under the scene */
+    size_t faint;   /* lights of the scene that it outshines */
     float *sh;      /* its coefficients, lmp_environment, of `bands` bands */
     int bands;
     scene_light suns[ENVIRONMENT_SUNS_MAX]; /* what environment_extract_suns took from `light` */
@@ -74,6 +75,9 @@ typedef struct environment {
 
 /* Whether a name is that of a file, not of what is built in. */
 bool environment_is_file(const char *name);
+
+/* Whether the scene has lights of its own, and more than what glows in a corner of it. */
+bool environment_lights_suffice(const scene *world);
 
 /* What the options name for a scene: without a name the studio, with a note on stderr, or none. */
 const char *environment_choose(const environment_options *options, const scene *world);
@@ -94,16 +98,17 @@ bool environment_extract_suns(environment *e, cli_error *error);
 /* Puts them behind `count` lights, of SCENE_LIGHTS_MAX; returns how many there are then. */
 size_t environment_add_suns(const environment *e, scene_light *lights, size_t count);
 
-/* The exposure that suits a scene that nothing but the studio lights; else 0: find one. */
+/* The exposure that suits a scene that nothing but the studio lights, but for what glows; else 0:
+ * find one. */
 static inline float environment_exposure(const environment *e, size_t light_count) {
-    return e && e->studio && light_count == 0 ? 1 : 0;
+    return e && e->studio && light_count <= e->faint ? 1 : 0;
 }
 
-/* Whether shadows suit a scene of so many lights by default. Not where the studio alone lights a
- * scene seen from inside: it stands for the light that such a room would have, and its walls would
- * keep all of it out. */
-static inline bool environment_suits_shadows(bool studio, const scene *seen, size_t light_count) {
-    return !(studio && light_count == 0 && scene_is_inside(seen));
+/* Whether shadows suit a scene by default. Not where the studio lights one that is seen from
+ * inside: it stands for the light that such a room would have, and its walls would keep all of it
+ * out. */
+static inline bool environment_suits_shadows(bool studio, const scene *seen) {
+    return !(studio && scene_is_inside(seen));
 }
 
 /* Makes its coefficients, of so many bands at least. */

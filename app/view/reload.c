@@ -57,7 +57,7 @@ static void drop_lost_materials(view_state *state) {
 /* Rays run on the CPU: a GPU would wait for them. */
 static bool suits_shadows(const scene *world, const char *surroundings) {
     const bool studio = strcmp(surroundings, "studio") == 0;
-    return !render_finds_gpu() && environment_suits_shadows(studio, world, world->light_count);
+    return !render_finds_gpu() && environment_suits_shadows(studio, world);
 }
 
 bool view_choose_environment(viewer *v, cli_error *error) {

@@ -2,6 +2,7 @@
 /* Environments: where an image's colors are seen, what its coefficients are, and what is refused.
  */
 #include "app/environment/environment.h"
+#include "app/scene/instance.h"
 #include "tests/program/folder.h"
 
 #include <lampion/shade.h>
@@ -9,7 +10,8 @@
 #include <math.h>
 
 static scene lit_scene(void) {
-    return (scene) { .maximum = { 1, 1, 1 }, .light_count = 1, .name = "test" };
+    static scene_light lamp;
+    return (scene) { .maximum = { 1, 1, 1 }, .lights = &lamp, .light_count = 1, .name = "test" };
 }
 
 static image filled(int width, int height, float red) {
@@ -164,6 +166,52 @@ static void what_is_no_environment_is_refused(void **state) {
     image_free(&negative);
 }
 
+/* A floor, seen from above, and a lamp over or under it, which stands for a mesh or not. */
+static scene glowing_scene(float height, uint32_t hidden) {
+    static scene_vertex vertices[4];
+    static const uint32_t indices[6] = { 0, 1, 2, 0, 2, 3 };
+    static scene_mesh mesh = { .index_count = 6 };
+    static scene_instance instance;
+    static scene_material material;
+    static scene_light light;
+    static const float corners[4][2] = { { -1, 1 }, { 1, 1 }, { 1, -1 }, { -1, -1 } };
+    for (int i = 0; i < 4; i++) {
+        vertices[i].position[0] = corners[i][0];
+        vertices[i].position[1] = 0;
+        vertices[i].position[2] = corners[i][1];
+    }
+    instance = scene_instance_identity(0);
+    light = (scene_light) {
+        .emitter = { .position = { 0, height, 0 }, .radius = 0.1f, .radiance = { 1, 1, 1 } },
+        .hidden = hidden
+    };
+    return (scene) { .vertices = vertices,
+                     .vertex_count = 4,
+                     .indices = indices,
+                     .index_count = 6,
+                     .meshes = &mesh,
+                     .mesh_count = 1,
+                     .instances = &instance,
+                     .instance_count = 1,
+                     .materials = &material,
+                     .material_count = 1,
+                     .lights = &light,
+                     .light_count = 1,
+                     .minimum = { -1, 0, -1 },
+                     .maximum = { 1, 0, 1 } };
+}
+
+static void the_studio_shines_where_what_glows_lights_little(void **state) {
+    (void)state;
+    const environment_options none = ENVIRONMENT_DEFAULTS;
+    const scene over = glowing_scene(1, 1);
+    assert_string_equal(environment_choose(&none, &over), "none");
+    const scene under = glowing_scene(-1, 1);
+    assert_string_equal(environment_choose(&none, &under), "studio");
+    const scene lamp = glowing_scene(-1, 0); /* no mesh, but a light that somebody put there */
+    assert_string_equal(environment_choose(&none, &lamp), "none");
+}
+
 static void the_studio_shines_where_nothing_else_does(void **state) {
     (void)state;
     const environment_options none = ENVIRONMENT_DEFAULTS;
@@ -311,6 +359,7 @@ int main(void) {
         cmocka_unit_test(a_large_image_has_the_coefficients_of_all_its_pixels),
         cmocka_unit_test(what_is_no_environment_is_refused),
         cmocka_unit_test(the_studio_shines_where_nothing_else_does),
+        cmocka_unit_test(the_studio_shines_where_what_glows_lights_little),
         cmocka_unit_test(a_sun_in_an_image_becomes_a_cap),
         cmocka_unit_test(the_side_away_from_a_sun_is_as_dark_as_it_is),
         cmocka_unit_test(what_is_no_sun_stays_in_the_image),

@@ -27,13 +27,12 @@ typedef struct shadow_options {
     shadow_settings settings;
 } shadow_options;
 
-/* Whether they are cast in such surroundings of a scene of so many lights. */
+/* Whether they are cast in such surroundings of a scene. */
 static inline bool shadow_wanted(const shadow_options *options, const environment *surroundings,
-                                 const scene *seen, size_t light_count) {
-    return !options->off &&
-           (options->on || environment_suits_shadows(surroundings->studio, seen, light_count));
+                                 const scene *seen) {
+    return !options->off && (options->on || environment_suits_shadows(surroundings->studio, seen));
 }
-#define SHADOW_SUITS "the default, except where the studio alone lights a scene seen from inside"
+#define SHADOW_SUITS "the default, except where the studio lights a scene seen from inside"
 #define SHADOW_SWITCH_ROWS(variable, suits)                                                        \
     { .name = "shadows",                                                                           \
       .kind = CLI_FLAG,                                                                            \
