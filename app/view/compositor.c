@@ -278,7 +278,7 @@ static bool settle_environment(view_compositor *s, const view_settings *settings
 
 static bool settle_shadows(view_compositor *s, const view_settings *settings, render_pass *pass,
                            cli_error *error) {
-    static const shadow_settings quick = { .rays = 1, .sparse = true, .apart = true };
+    static const shadow_settings quick = { .sparse = true, .apart = true };
     if (!settings->shadows)
         return true;
     if (!s->shadows)

@@ -85,9 +85,10 @@ static int spacing_of(const shadow *s, const render_surfaces *surfaces) {
 }
 
 static int rays_of(const shadow *s) {
+    const int usual = s->settings.apart ? SHADOW_RAYS_APART : SHADOW_RAYS_USUAL;
     if (s->settings.rays > 0)
         return s->settings.rays;
-    return shadow_around_shines(&s->around) ? SHADOW_RAYS_AROUND : SHADOW_RAYS_DEFAULT;
+    return shadow_around_shines(&s->around) ? SHADOW_RAYS_AROUND * usual : usual;
 }
 
 static shadow_job job_of(shadow *s, const render_frame *frame, const render_surfaces *surfaces) {

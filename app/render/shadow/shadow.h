@@ -15,10 +15,10 @@ typedef struct shadow_settings {
     bool sparse;   /* of two neighboring pixels one sends rays */
     bool apart;    /* samples know nothing of those before: all send rays, not one of three */
 } shadow_settings;
-#define SHADOW_RAYS_MAX     1024
-#define SHADOW_RAYS_DEFAULT 2
-#define SHADOW_RAYS_AROUND                                                                         \
-    8 /* where an environment shines: from all sides, all of it half-shadow */
+#define SHADOW_RAYS_MAX    1024
+#define SHADOW_RAYS_APART  1 /* of samples that stand alone */
+#define SHADOW_RAYS_USUAL  2
+#define SHADOW_RAYS_AROUND 4 /* times as many where an environment shines, all half-shadow */
 
 /* What a command line says of shadows. Zero is the default. */
 typedef struct shadow_options {
