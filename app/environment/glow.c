@@ -24,7 +24,7 @@ static int compare_irradiance(const void *a, const void *b) {
 /* Whether lights stand for emissive meshes alone, which are hidden spheres. */
 static bool glows_alone(const scene *s) {
     for (size_t i = 0; i < s->light_count; i++)
-        if (!s->lights[i].hidden || s->lights[i].emitter.kind != LMP_LIGHT_SPHERE)
+        if (!s->lights[i].hidden || !scene_light_has(&s->lights[i], SCENE_LIGHT_RADIUS))
             return false;
     return s->light_count > 0;
 }
