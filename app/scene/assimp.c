@@ -4,6 +4,7 @@
 #include "app/scene/assimp_material.h"
 #include "app/scene/instance.h"
 #include "app/scene/mesh.h"
+#include "app/scene/sides.h"
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
@@ -11,6 +12,7 @@
 #include <assimp/scene.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define NODE_DEPTH_MAX 1024
 #define MESH_UNREAD    UINT32_MAX
@@ -23,6 +25,10 @@ typedef struct assimp_job {
     source_set *sources;
     scene_builder *builder;
     uint32_t *shared;  /* the scene's mesh of each of Assimp's */
+    uint32_t *unsided; /* those of a node's meshes that do not say which side is their front */
+    size_t unsided_count, unsided_capacity;
+    bool flat_normals; /* those of the format follow from the order of corners */
+    bool lost_nodes;   /* a node lacks a child that it counts */
     cli_error refusal; /* why the first file was not read that Assimp asked for in vain */
     bool out_of_memory;
 } assimp_job;
@@ -220,8 +226,8 @@ static void copy_vertex(const struct aiMesh *mesh, unsigned i, scene_vertex *ver
     }
 }
 
-static bool add_mesh(const assimp_job *job, const struct aiMesh *mesh,
-                     const mesh_transform *transform, cli_error *error) {
+static bool add_mesh(assimp_job *job, const struct aiMesh *mesh, const mesh_transform *transform,
+                     cli_error *error) {
     mesh_draft draft = { .subject = job->sources->subject,
                          .name = mesh->mName.data,
                          .material = mesh->mMaterialIndex,
@@ -239,14 +245,38 @@ static bool add_mesh(const assimp_job *job, const struct aiMesh *mesh,
     }
     if (ok && transform->mirrors)
         mesh_flip(&draft);
+    const size_t next = builder_count(job->builder, BLOB_MESHES);
     ok = ok && mesh_add(&draft, job->builder, error);
+    if (ok && builder_count(job->builder, BLOB_MESHES) > next &&
+        (!draft.sided || job->flat_normals))
+        job->unsided[job->unsided_count++] = (uint32_t)next;
     mesh_free(&draft);
     return ok;
 }
 
+/* Makes room for the meshes that a node adds. */
+static bool begin_meshes(assimp_job *job, size_t count, cli_error *error) {
+    if (count <= job->unsided_capacity)
+        return true;
+    uint32_t *const unsided = realloc(job->unsided, count * sizeof *unsided);
+    if (!unsided)
+        return cli_fail(error, job->sources->subject, "does not fit into memory");
+    job->unsided = unsided;
+    job->unsided_capacity = count;
+    return true;
+}
+
+/* Finishes the meshes that have been added for a node. */
+static bool end_meshes(assimp_job *job, cli_error *error) {
+    const size_t count = job->unsided_count;
+    job->unsided_count = 0;
+    return sides_turn_outwards(job->builder, job->unsided, count) ||
+           cli_fail(error, job->sources->subject, "does not fit into memory");
+}
+
 /* Each mesh once, however many nodes show it; what the matrix does to it may be too much for an
  * instance. */
-static bool place_mesh(const assimp_job *job, const struct aiScene *imported, unsigned number,
+static bool place_mesh(assimp_job *job, const struct aiScene *imported, unsigned number,
                        const double world[16], cli_error *error) {
     static const double same[16] = { [0] = 1, [5] = 1, [10] = 1, [15] = 1 };
     const struct aiMesh *mesh = imported->mMeshes[number];
@@ -269,9 +299,8 @@ static bool place_mesh(const assimp_job *job, const struct aiScene *imported, un
            cli_fail(error, job->sources->subject, "does not fit into memory");
 }
 
-static bool add_node(const assimp_job *job, const struct aiScene *imported,
-                     const struct aiNode *node, const double parent[16], int depth,
-                     cli_error *error) {
+static bool add_node(assimp_job *job, const struct aiScene *imported, const struct aiNode *node,
+                     const double parent[16], int depth, cli_error *error) {
     if (depth > NODE_DEPTH_MAX)
         return cli_fail(error, job->sources->subject, "has nodes nested too deep");
     const struct aiMatrix4x4 m = node->mTransformation;
@@ -281,13 +310,32 @@ static bool add_node(const assimp_job *job, const struct aiScene *imported,
                                (double)m.a4, (double)m.b4, (double)m.c4, 1.0 };
     double world[16];
     scene_multiply(parent, local, world);
+    if (!begin_meshes(job, node->mNumMeshes, error))
+        return false;
     for (unsigned i = 0; i < node->mNumMeshes; i++)
         if (!place_mesh(job, imported, node->mMeshes[i], world, error))
             return false;
-    for (unsigned i = 0; i < node->mNumChildren; i++)
-        if (!add_node(job, imported, node->mChildren[i], world, depth + 1, error))
+    if (!end_meshes(job, error))
+        return false;
+    for (unsigned i = 0; i < node->mNumChildren; i++) {
+        job->lost_nodes |= !node->mChildren[i];
+        if (node->mChildren[i] &&
+            !add_node(job, imported, node->mChildren[i], world, depth + 1, error))
             return false;
+    }
     return true;
+}
+
+/* Shows every mesh that a node would have shown which Assimp has lost, as it does in RAW files of
+ * several objects. */
+static bool add_lost(assimp_job *job, const struct aiScene *imported, const double world[16],
+                     cli_error *error) {
+    if (!begin_meshes(job, imported->mNumMeshes, error))
+        return false;
+    for (unsigned i = 0; job->lost_nodes && i < imported->mNumMeshes; i++)
+        if (job->shared[i] == MESH_UNREAD && !place_mesh(job, imported, i, world, error))
+            return false;
+    return end_meshes(job, error);
 }
 
 bool assimp_knows(const char *ending) {
@@ -309,12 +357,16 @@ bool assimp_add(const void *data, size_t size, source_set *sources, scene_builde
     if (!imported)
         return false;
     job.shared = malloc((imported->mNumMeshes + 1) * sizeof *job.shared);
+    const char *const dot = strrchr(job.name, '.');
+    job.flat_normals = dot && strcasecmp(dot, ".stl") == 0;
     for (unsigned i = 0; job.shared && i < imported->mNumMeshes; i++)
         job.shared[i] = MESH_UNREAD;
     const bool ok = (job.shared || cli_fail(error, sources->subject, "does not fit into memory")) &&
                     add_node(&job, imported, imported->mRootNode, scene_from_file, 0, error) &&
+                    add_lost(&job, imported, scene_from_file, error) &&
                     assimp_add_materials(imported, sources, builder, error);
     free(job.shared);
+    free(job.unsided);
     builder_left_out(builder, NULL, "light", imported->mNumLights);
     builder_left_out(builder, NULL, "camera", imported->mNumCameras);
     builder_left_out(builder, NULL, "animation", imported->mNumAnimations);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/mesh.h"
 
-#include "app/scene/random.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
@@ -9,6 +8,8 @@
 
 /* more corners at one point than this are not compared with another */
 #define SMOOTH_GROUP_MAX 256
+/* one triangle of so many may face the other way than its normals where both agree */
+#define DISAGREEING 8
 
 static float dot3(const float *a, const float *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -97,8 +98,9 @@ static lmp_vec3 triangle_normal(const mesh_draft *f, size_t triangle) {
 /* --- sides ------------------------------------------------------------------------------------ */
 
 /* Lets triangles be counter-clockwise as their normals see them: in formats that cull nothing,
- * clockwise meshes are as good. */
+ * clockwise meshes are as good. Where most are so already, both say which side is the front. */
 static void follow_normals(mesh_draft *f) {
+    size_t turned = 0;
     for (size_t i = 0; i < f->corner_count; i += 3) {
         uint32_t *c = &f->corners[i];
         lmp_vec3 given = vec(0.0f, 0.0f, 0.0f);
@@ -108,65 +110,10 @@ static void follow_normals(mesh_draft *f) {
             const uint32_t second = c[1];
             c[1] = c[2];
             c[2] = second;
+            turned++;
         }
     }
-}
-
-static uint64_t hash_of(const float position[3]) {
-    uint64_t hash = 0;
-    for (int k = 0; k < 3; k++) {
-        const float x = position[k] + 0.0f; /* of both zeros one */
-        uint32_t bits;
-        memcpy(&bits, &x, sizeof bits);
-        hash += bits;
-        hash = random_bits(&hash);
-    }
-    return hash;
-}
-
-/* One number for an edge and its negative for the edge the other way. */
-static uint64_t hash_edge(uint64_t from, uint64_t to) {
-    uint64_t low = from < to ? from : to;
-    const uint64_t hash = random_bits(&low) * ((from < to ? to : from) | 1u);
-    return from == to ? 0 : from < to ? hash : 0 - hash;
-}
-
-/* Whether every edge is met as often one way as the other, so that the numbers of all add up to 0:
- * others would by one chance in 2^64. */
-static bool is_closed(const mesh_draft *f) {
-    uint64_t sum = 0;
-    for (size_t i = 0; i < f->corner_count; i += 3) {
-        uint64_t hash[3];
-        for (size_t k = 0; k < 3; k++)
-            hash[k] = hash_of(f->vertices[f->corners[i + k]].position);
-        for (size_t k = 0; k < 3; k++)
-            sum += hash_edge(hash[k], hash[(k + 1) % 3]);
-    }
-    return sum == 0;
-}
-
-/* Six times what a closed surface encloses; below 0 where triangles show their fronts inwards. */
-static double enclosed(const mesh_draft *f) {
-    const float *origin = f->vertices[f->corners[0]].position;
-    double sum = 0.0;
-    for (size_t i = 0; i < f->corner_count; i += 3) {
-        double p[3][3];
-        for (size_t k = 0; k < 3; k++)
-            for (int c = 0; c < 3; c++)
-                p[k][c] = (double)f->vertices[f->corners[i + k]].position[c] - (double)origin[c];
-        for (int c = 0; c < 3; c++) {
-            const int d = (c + 1) % 3, e = (c + 2) % 3;
-            sum += p[0][c] * (p[1][d] * p[2][e] - p[1][e] * p[2][d]);
-        }
-    }
-    return sum;
-}
-
-/* Lets a surface around a body show its fronts outwards: where neither the format nor normals tell
- * sides, a body wound clockwise is no room. */
-static void turn_outwards(mesh_draft *f) {
-    if (is_closed(f) && enclosed(f) < 0.0)
-        mesh_flip(f);
+    f->sided = turned < f->corner_count / 3 / DISAGREEING;
 }
 
 /* --- missing normals -------------------------------------------------------------------------- */
@@ -357,8 +304,6 @@ bool mesh_add(mesh_draft *f, scene_builder *builder, cli_error *error) {
     find_unit(f);
     if (f->has_normals && f->unsided)
         follow_normals(f);
-    if (!f->has_normals && f->unsided)
-        turn_outwards(f);
     if (!f->has_normals)
         ok = split_corners(f, error) && make_normals(f, error);
     if (ok)

@@ -20,8 +20,9 @@ typedef struct mesh_draft {
     size_t corner_count;
     bool has_normals;
     bool weld;    /* merge equal vertices: the source has them once a corner */
-    bool unsided; /* the order of corners means nothing: it follows given normals, or the outside */
-    float unit;   /* filled in: a power of 2, by which its edges are about 1 long */
+    bool unsided; /* the order of corners means nothing: it follows given normals */
+    bool sided; /* filled in, where unsided: normals and the order of corners agree on the sides */
+    float unit; /* filled in: a power of 2, by which its edges are about 1 long */
     float crease_cos; /* missing normals are smooth across edges flatter than this */
 } mesh_draft;
 

@@ -4,6 +4,7 @@
 #include "app/sandbox/sandbox.h"
 #include "app/scene/mesh.h"
 #include "app/scene/mtl.h"
+#include "app/scene/sides.h"
 #include "app/scene/vector.h"
 #include "app/scene/words.h"
 
@@ -37,6 +38,7 @@ typedef struct obj_reader {
     list positions, uvs, normals; /* of 3, 2 and 3 floats */
     list corners;                 /* 3 a triangle */
     list runs;
+    list unsided; /* the numbers of meshes that do not say which side is their front */
     list polygon; /* corners of the one being read */
     mtl_names materials;
     texture_files textures;
@@ -69,12 +71,13 @@ static void *append(const obj_reader *r, list *l, size_t item) {
 static int read_numbers(obj_reader *r, int least, int most, const double origin[3],
                         float *numbers) {
     int count = 0;
-    for (const char *word; (word = words_next(&r->words)); count++)
+    for (const char *word; (word = words_next(&r->words)); count++) {
         if (count == most ||
             !words_coordinate(word, count < 3 ? origin[count] : 0.0, &numbers[count])) {
             fail(r, "has no finite number where one belongs, or too many");
             return -1;
         }
+    }
     if (count < least)
         fail(r, "has too few numbers");
     return count < least ? -1 : count;
@@ -271,7 +274,15 @@ static uint32_t material_of(const obj_reader *r, const run *from) {
     return found ? found->material : 0;
 }
 
-static bool add_run(const obj_reader *r, const run *from, size_t end) {
+/* Notes the last mesh. */
+static bool note_unsided(obj_reader *r) {
+    uint32_t *const item = append(r, &r->unsided, sizeof *item);
+    if (item)
+        *item = (uint32_t)builder_count(r->builder, BLOB_MESHES) - 1;
+    return item != NULL;
+}
+
+static bool add_run(obj_reader *r, const run *from, size_t end) {
     const float *positions = r->positions.items, *uvs = r->uvs.items, *normals = r->normals.items;
     const size_t count = end - from->first_corner;
     if (count == 0)
@@ -306,7 +317,7 @@ static bool add_run(const obj_reader *r, const run *from, size_t end) {
     }
     ok = ok && mesh_add(&draft, r->builder, r->error);
     mesh_free(&draft);
-    return ok;
+    return ok && (draft.sided || note_unsided(r));
 }
 
 static bool read_all(obj_reader *r) {
@@ -335,7 +346,8 @@ static bool read_all(obj_reader *r) {
                      i + 1 < r->runs.count ? runs[i + 1].first_corner : r->corners.count))
             return false;
     builder_instances(r->builder, 0);
-    return true;
+    return sides_turn_outwards(r->builder, r->unsided.items, r->unsided.count) ||
+           cli_fail(r->error, r->sources->subject, "does not fit into memory");
 }
 
 bool obj_add(const void *data, size_t size, source_set *sources, scene_builder *builder,
@@ -350,7 +362,8 @@ bool obj_add(const void *data, size_t size, source_set *sources, scene_builder *
     run *runs = r.runs.items;
     for (size_t i = 0; i < r.runs.count; i++)
         free(runs[i].material);
-    const list *lists[] = { &r.positions, &r.uvs, &r.normals, &r.corners, &r.runs, &r.polygon };
+    const list *lists[] = { &r.positions, &r.uvs,     &r.normals, &r.corners,
+                            &r.runs,      &r.unsided, &r.polygon };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         free(lists[i]->items);
     mtl_names_free(&r.materials);

@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/scene/sides.h"
+
+#include "app/scene/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OPEN_MOST  0.07 /* of its edges that a body may lack a triangle at: cracks, not a side */
+#define PAIRS_MOST ((size_t)1 << 22)
+#define NONE       UINT32_MAX
+
+/* What hangs together by the positions of its vertices. */
+typedef struct body {
+    double middle[3], inside; /* inside: six times what it encloses; below 0: clockwise */
+    float low[3], high[3];
+    size_t triangles, open; /* edges without a triangle at their other side */
+    uint32_t mesh;          /* the first one's */
+    bool turns;
+} body;
+
+typedef struct sides {
+    scene_vertex *vertices; /* those of the meshes, `first` the lowest of their numbers */
+    uint32_t first, vertex_count;
+    uint32_t *indices;
+    const scene_mesh *all;
+    const uint32_t *meshes;
+    size_t mesh_count, corner_count;
+    uint32_t *joined; /* of each vertex another of its body; then the body itself */
+    body *bodies;
+    size_t body_count;
+} sides;
+
+/* --- which vertices are one body's ------------------------------------------------------------ */
+
+static uint64_t hash_of(const float position[3]) {
+    uint64_t hash = 0;
+    for (int k = 0; k < 3; k++) {
+        const float x = position[k] + 0.0f; /* of both zeros one */
+        uint32_t bits;
+        memcpy(&bits, &x, sizeof bits);
+        hash += bits;
+        hash = random_bits(&hash);
+    }
+    return hash;
+}
+
+static bool is_same(const float a[3], const float b[3]) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static uint32_t leader_of(uint32_t *joined, uint32_t vertex) {
+    while (joined[vertex] != vertex) {
+        joined[vertex] = joined[joined[vertex]];
+        vertex = joined[vertex];
+    }
+    return vertex;
+}
+
+/* The lowest number leads. */
+static void join(uint32_t *joined, uint32_t a, uint32_t b) {
+    a = leader_of(joined, a);
+    b = leader_of(joined, b);
+    joined[a > b ? a : b] = a > b ? b : a;
+}
+
+static size_t slots_for(size_t count) {
+    size_t slots = 64;
+    while (slots < 2 * count)
+        slots *= 2;
+    return slots;
+}
+
+/* Gives each vertex the first one at its position. */
+static bool join_positions(const sides *s, uint32_t *same) {
+    const size_t slots = slots_for(s->vertex_count);
+    uint32_t *const table = malloc(slots * sizeof *table);
+    if (!table)
+        return false;
+    memset(table, 0xff, slots * sizeof *table);
+    for (uint32_t i = 0; i < s->vertex_count; i++) {
+        const float *const at = s->vertices[i].position;
+        size_t slot = hash_of(at) & (slots - 1);
+        while (table[slot] != NONE && !is_same(s->vertices[table[slot]].position, at))
+            slot = (slot + 1) & (slots - 1);
+        if (table[slot] == NONE)
+            table[slot] = i;
+        same[i] = table[slot];
+    }
+    free(table);
+    return true;
+}
+
+static uint32_t *corners_of(const sides *s, size_t mesh) {
+    return s->indices + s->all[s->meshes[mesh]].first_index;
+}
+
+static uint32_t corner_count(const sides *s, size_t mesh) {
+    return s->all[s->meshes[mesh]].index_count;
+}
+
+/* --- bodies ----------------------------------------------------------------------------------- */
+
+/* Numbers the bodies: `joined` becomes the number of each vertex's. */
+static bool number_bodies(sides *s, const uint32_t *same) {
+    memcpy(s->joined, same, s->vertex_count * sizeof *same);
+    for (size_t m = 0; m < s->mesh_count; m++)
+        for (uint32_t i = 0; i < corner_count(s, m); i += 3) {
+            const uint32_t *const c = corners_of(s, m) + i;
+            join(s->joined, c[0] - s->first, c[1] - s->first);
+            join(s->joined, c[0] - s->first, c[2] - s->first);
+        }
+    for (uint32_t i = 0; i < s->vertex_count; i++)
+        s->body_count += s->joined[i] == i;
+    s->bodies = calloc(s->body_count + 1, sizeof *s->bodies);
+    uint32_t next = 0;
+    for (uint32_t i = 0; s->bodies && i < s->vertex_count; i++) {
+        const uint32_t from = s->joined[i];
+        s->joined[i] = from == i ? next++ : s->joined[from];
+    }
+    return s->bodies != NULL;
+}
+
+static void measure_bounds(sides *s) {
+    for (size_t i = 0; i < s->body_count; i++)
+        for (int k = 0; k < 3; k++) {
+            s->bodies[i].low[k] = INFINITY;
+            s->bodies[i].high[k] = -INFINITY;
+        }
+    for (uint32_t i = 0; i < s->vertex_count; i++) {
+        body *const b = &s->bodies[s->joined[i]];
+        for (int k = 0; k < 3; k++) {
+            b->low[k] = fminf(b->low[k], s->vertices[i].position[k]);
+            b->high[k] = fmaxf(b->high[k], s->vertices[i].position[k]);
+        }
+    }
+    for (size_t i = 0; i < s->body_count; i++)
+        for (int k = 0; k < 3; k++)
+            s->bodies[i].middle[k] =
+                0.5 * ((double)s->bodies[i].low[k] + (double)s->bodies[i].high[k]);
+}
+
+static void measure_insides(sides *s) {
+    for (size_t m = 0; m < s->mesh_count; m++)
+        for (uint32_t i = 0; i < corner_count(s, m); i += 3) {
+            const uint32_t *const c = corners_of(s, m) + i;
+            body *const b = &s->bodies[s->joined[c[0] - s->first]];
+            double p[3][3];
+            for (int k = 0; k < 3; k++)
+                for (int axis = 0; axis < 3; axis++)
+                    p[k][axis] =
+                        (double)s->vertices[c[k] - s->first].position[axis] - b->middle[axis];
+            for (int axis = 0; axis < 3; axis++) {
+                const int d = (axis + 1) % 3, e = (axis + 2) % 3;
+                b->inside += p[0][axis] * (p[1][d] * p[2][e] - p[1][e] * p[2][d]);
+            }
+            if (b->triangles++ == 0)
+                b->mesh = s->meshes[m];
+        }
+}
+
+/* --- open edges ------------------------------------------------------------------------------- */
+
+typedef struct edge {
+    uint32_t low, high; /* NONE: none */
+    int32_t ways;       /* from low to high, less those from high to low */
+} edge;
+
+/* Counts the edges that are not met as often one way as the other. */
+static bool count_open_edges(sides *s, const uint32_t *same) {
+    const size_t slots = slots_for(s->corner_count);
+    edge *const table = malloc(slots * sizeof *table);
+    if (!table)
+        return false;
+    memset(table, 0xff, slots * sizeof *table);
+    for (size_t m = 0; m < s->mesh_count; m++)
+        for (uint32_t i = 0; i < corner_count(s, m); i++) {
+            const uint32_t *const c = corners_of(s, m) + i / 3 * 3;
+            const uint32_t from = same[c[i % 3] - s->first], to = same[c[(i + 1) % 3] - s->first];
+            if (from == to)
+                continue;
+            const uint32_t low = from < to ? from : to, high = from < to ? to : from;
+            uint64_t hash = (uint64_t)high << 32 | low;
+            size_t slot = random_bits(&hash) & (slots - 1);
+            while (table[slot].low != NONE && !(table[slot].low == low && table[slot].high == high))
+                slot = (slot + 1) & (slots - 1);
+            if (table[slot].low == NONE)
+                table[slot] = (edge) { .low = low, .high = high };
+            table[slot].ways += from < to ? 1 : -1;
+        }
+    for (size_t i = 0; i < slots; i++)
+        if (table[i].low != NONE)
+            s->bodies[s->joined[table[i].low]].open += (size_t)abs(table[i].ways);
+    free(table);
+    return true;
+}
+
+static bool is_closed(const body *b) {
+    return (double)b->open <= OPEN_MOST * 3.0 * (double)b->triangles;
+}
+
+/* --- the decision ----------------------------------------------------------------------------- */
+
+static bool holds(const body *outer, const body *inner) {
+    for (int k = 0; k < 3; k++)
+        if (!(outer->low[k] < inner->low[k] && inner->high[k] < outer->high[k]))
+            return false;
+    return true;
+}
+
+/* Whether a clockwise body is what it seems: a room with something in it, or a hollow. */
+static bool is_meant(const sides *s, const body *b) {
+    for (size_t i = 0; i < s->body_count; i++) {
+        const body *const other = &s->bodies[i];
+        if (other->inside > 0.0 && is_closed(other) &&
+            (holds(b, other) || (other->mesh == b->mesh && holds(other, b))))
+            return true;
+    }
+    return false;
+}
+
+static void decide(sides *s, size_t clockwise) {
+    size_t turned = 0, right = 0;
+    for (size_t i = 0; i < s->body_count; i++) {
+        body *const b = &s->bodies[i];
+        if (!is_closed(b))
+            continue;
+        b->turns = b->inside < 0.0 && (clockwise * s->body_count > PAIRS_MOST || !is_meant(s, b));
+        *(b->turns ? &turned : &right) += b->triangles;
+    }
+    for (size_t i = 0; i < s->body_count; i++)
+        if (turned > right && !is_closed(&s->bodies[i]))
+            s->bodies[i].turns = true;
+}
+
+static void turn(sides *s) {
+    for (size_t m = 0; m < s->mesh_count; m++)
+        for (uint32_t i = 0; i < corner_count(s, m); i += 3) {
+            uint32_t *const c = corners_of(s, m) + i;
+            if (s->bodies[s->joined[c[0] - s->first]].turns) {
+                const uint32_t second = c[1];
+                c[1] = c[2];
+                c[2] = second;
+            }
+        }
+    for (uint32_t i = 0; i < s->vertex_count; i++)
+        if (s->bodies[s->joined[i]].turns) {
+            for (int k = 0; k < 3; k++)
+                s->vertices[i].normal[k] = -s->vertices[i].normal[k];
+            s->vertices[i].tangent[3] = -s->vertices[i].tangent[3];
+        }
+}
+
+/* The vertices that the meshes have, from the lowest of their numbers to the highest. */
+static void find_vertices(sides *s, scene_builder *builder) {
+    uint32_t most = 0;
+    s->first = NONE;
+    for (size_t m = 0; m < s->mesh_count; m++) {
+        s->corner_count += corner_count(s, m);
+        for (uint32_t i = 0; i < corner_count(s, m); i++) {
+            const uint32_t vertex = corners_of(s, m)[i];
+            s->first = vertex < s->first ? vertex : s->first;
+            most = vertex > most ? vertex : most;
+        }
+    }
+    if (s->first == NONE)
+        return;
+    s->vertex_count = most - s->first + 1;
+    s->vertices = (scene_vertex *)builder_items(builder, BLOB_VERTICES) + s->first;
+}
+
+bool sides_turn_outwards(scene_builder *builder, const uint32_t *meshes, size_t count) {
+    sides s = { .indices = builder_items(builder, BLOB_INDICES),
+                .all = builder_items(builder, BLOB_MESHES),
+                .meshes = meshes,
+                .mesh_count = count };
+    find_vertices(&s, builder);
+    if (s.vertex_count == 0)
+        return true;
+    uint32_t *const same = malloc(s.vertex_count * sizeof *same);
+    s.joined = malloc(s.vertex_count * sizeof *s.joined);
+    bool ok = same && s.joined && join_positions(&s, same) && number_bodies(&s, same);
+    size_t clockwise = 0;
+    if (ok) {
+        measure_bounds(&s);
+        measure_insides(&s);
+    }
+    for (size_t i = 0; ok && i < s.body_count; i++)
+        clockwise += s.bodies[i].inside < 0.0;
+    ok = ok && (clockwise == 0 || count_open_edges(&s, same));
+    if (ok && clockwise > 0) {
+        decide(&s, clockwise);
+        turn(&s);
+    }
+    free(same);
+    free(s.joined);
+    free(s.bodies);
+    return ok;
+}

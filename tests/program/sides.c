@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT */
+/* Bodies show their outside, whatever the order of their corners, in formats that do not tell. */
+#include "app/scene/scene.h"
+#include "tests/program/folder.h"
+#include "tests/program/load.h"
+
+/* Faces of a box by its corners, the first lowest in x, y and z: counter-clockwise from outside. */
+static const int faces[6][4] = { { 1, 2, 4, 3 }, { 5, 7, 8, 6 }, { 1, 5, 6, 2 },
+                                 { 3, 4, 8, 7 }, { 1, 3, 7, 5 }, { 2, 6, 8, 4 } };
+
+typedef struct box {
+    float low, high;
+    bool clockwise;
+    int faces;       /* the last ones may be missing */
+    int parts;       /* materials that the faces take in turn */
+    const char *tag; /* what comes before it: "o name\n" or nothing */
+} box;
+
+static void add_box(char *text, size_t size, const box *b, int number) {
+    size_t used = strlen(text);
+    for (int i = 0; i < 8; i++)
+        used += (size_t)snprintf(
+            text + used, size - used, "v %g %g %g\n", (double)(i & 4 ? b->high : b->low),
+            (double)(i & 2 ? b->high : b->low), (double)(i & 1 ? b->high : b->low));
+    used += (size_t)snprintf(text + used, size - used, "%s", b->tag);
+    for (int i = 0; i < b->faces; i++) {
+        const int *f = faces[i], first = 8 * number;
+        if (b->parts > 1)
+            used += (size_t)snprintf(text + used, size - used, "usemtl part%d\n", i % b->parts);
+        used += (size_t)snprintf(text + used, size - used, "f %d %d %d %d\n", first + f[0],
+                                 first + f[b->clockwise ? 3 : 1], first + f[2],
+                                 first + f[b->clockwise ? 1 : 3]);
+    }
+}
+
+static scene load_boxes(const box *boxes, int count) {
+    char text[8192] = "";
+    for (int i = 0; i < count; i++)
+        add_box(text, sizeof text, &boxes[i], i);
+    folder_write_text("boxes.obj", text);
+    return load(in_folder("boxes.obj"));
+}
+
+/* 1 where every triangle of a box, whose middle is given, and its normals look away from it; -1
+ * where all look towards it; 0 otherwise. The box is told by how far its corners are. */
+static int outwards(const scene *s, float middle, float half) {
+    size_t out = 0, in = 0;
+    for (size_t i = 0; i < s->index_count; i += 3) {
+        const scene_vertex *v[3];
+        double corner = 0, along = 0, wound = 0;
+        for (int k = 0; k < 3; k++)
+            v[k] = &s->vertices[s->indices[i + (size_t)k]];
+        for (int k = 0; k < 3; k++) {
+            const int d = (k + 1) % 3, e = (k + 2) % 3;
+            const double away = (double)(v[0]->position[k] - middle);
+            corner = fmax(corner, fabs(away));
+            along += away * (double)v[0]->normal[k];
+            wound += away * (double)((v[1]->position[d] - v[0]->position[d]) *
+                                         (v[2]->position[e] - v[0]->position[e]) -
+                                     (v[1]->position[e] - v[0]->position[e]) *
+                                         (v[2]->position[d] - v[0]->position[d]));
+        }
+        if (fabs(corner - (double)half) > 1e-3)
+            continue;
+        out += along > 0 && wound > 0;
+        in += along < 0 && wound < 0;
+        if (!(along > 0 && wound > 0) && !(along < 0 && wound < 0))
+            return 0;
+    }
+    return out > 0 && in == 0 ? 1 : in > 0 && out == 0 ? -1 : 0;
+}
+
+static void a_body_of_several_materials_shows_its_outside(void **state) {
+    (void)state;
+    for (int parts = 1; parts <= 6; parts++)
+        for (int clockwise = 0; clockwise < 2; clockwise++) {
+            scene s = load_boxes(&(box) { -2, 2, clockwise, 6, parts, "" }, 1);
+            assert_int_equal(s.mesh_count, parts == 1 ? 1 : 6);
+            assert_unit_and_inside(&s);
+            assert_int_equal(outwards(&s, 0, 2), 1);
+            assert_false(scene_is_inside(&s));
+            scene_free(&s);
+        }
+}
+
+/* One is mirrored, as a part that somebody copied to the other side. */
+static void each_body_is_turned_by_itself(void **state) {
+    (void)state;
+    const box boxes[] = { { -3, -2, false, 6, 1, "" }, { 2, 3, true, 6, 2, "" } };
+    scene s = load_boxes(boxes, 2);
+    assert_int_equal(outwards(&s, -2.5f, 0.5f), 1);
+    assert_int_equal(outwards(&s, 2.5f, 0.5f), 1);
+    scene_free(&s);
+}
+
+/* Walls around what is not clockwise are those of a room; around what is, all are. */
+static void what_a_body_holds_tells_whether_it_is_a_room(void **state) {
+    (void)state;
+    for (int clockwise = 0; clockwise < 2; clockwise++) {
+        const box boxes[] = { { -4, 4, true, 6, 1, "o walls\n" },
+                              { -1, 1, clockwise, 6, 1, "o chest\n" } };
+        scene s = load_boxes(boxes, 2);
+        assert_int_equal(outwards(&s, 0, 1), 1);
+        assert_int_equal(outwards(&s, 0, 4), clockwise ? 1 : -1);
+        scene_free(&s);
+    }
+}
+
+static void a_hollow_stays_hollow(void **state) {
+    (void)state;
+    const box boxes[] = { { -4, 4, false, 6, 1, "" }, { -1, 1, true, 6, 1, "" } };
+    scene s = load_boxes(boxes, 2);
+    assert_int_equal(outwards(&s, 0, 4), 1);
+    assert_int_equal(outwards(&s, 0, 1), -1);
+    scene_free(&s);
+}
+
+/* A box without a lid goes as the bodies beside it do; without any, it is as it is. */
+static void what_is_open_goes_with_the_bodies(void **state) {
+    (void)state;
+    const box boxes[] = { { -4, -2, true, 5, 1, "" }, { 2, 3, true, 6, 1, "" } };
+    scene s = load_boxes(boxes, 2);
+    assert_int_equal(outwards(&s, 2.5f, 0.5f), 1);
+    assert_int_equal(outwards(&s, -3, 1), 1);
+    scene_free(&s);
+    s = load_boxes(boxes, 1);
+    assert_int_equal(outwards(&s, -3, 1), -1);
+    scene_free(&s);
+}
+
+static void write_stl(const char *name, bool clockwise, int normal) {
+    char text[8192] = "solid s\n";
+    size_t used = strlen(text);
+    for (int i = 0; i < 12; i++) {
+        const int *f = faces[i / 2], second = i % 2 ? 2 : 1;
+        const int corners[3] = { f[0], f[clockwise ? second + 1 : second],
+                                 f[clockwise ? second : second + 1] };
+        used +=
+            (size_t)snprintf(text + used, sizeof text - used, "facet normal %d %d %d\nouter loop\n",
+                             i / 4 == 0 ? (i / 2 == 0 ? -normal : normal) : 0,
+                             i / 4 == 1 ? (i / 2 == 2 ? -normal : normal) : 0,
+                             i / 4 == 2 ? (i / 2 == 4 ? -normal : normal) : 0);
+        for (int k = 0; k < 3; k++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "vertex %d %d %d\n",
+                                     (corners[k] - 1) & 4 ? 2 : -2, (corners[k] - 1) & 2 ? 2 : -2,
+                                     (corners[k] - 1) & 1 ? 2 : -2);
+        used += (size_t)snprintf(text + used, sizeof text - used, "endloop\nendfacet\n");
+    }
+    snprintf(text + used, sizeof text - used, "endsolid s\n");
+    folder_write_text(name, text);
+}
+
+/* Normals of an STL follow from its corners, if they are right; some are not. */
+static void an_stl_is_turned_whatever_its_normals_say(void **state) {
+    (void)state;
+    for (int clockwise = 0; clockwise < 2; clockwise++)
+        for (int normal = -1; normal <= 1; normal++) {
+            write_stl("s.stl", clockwise, normal);
+            scene s = load(in_folder("s.stl"));
+            assert_int_equal(outwards(&s, 0, 2), 1);
+            scene_free(&s);
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_body_of_several_materials_shows_its_outside),
+        cmocka_unit_test(each_body_is_turned_by_itself),
+        cmocka_unit_test(what_a_body_holds_tells_whether_it_is_a_room),
+        cmocka_unit_test(a_hollow_stays_hollow),
+        cmocka_unit_test(what_is_open_goes_with_the_bodies),
+        cmocka_unit_test(an_stl_is_turned_whatever_its_normals_say),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
