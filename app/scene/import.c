@@ -10,6 +10,7 @@
 #include "app/scene/instance.h"
 #include "app/scene/obj.h"
 #include "app/scene/origin.h"
+#include "app/scene/text.h"
 #include "app/scene/up.h"
 
 #include <errno.h>
@@ -141,11 +142,22 @@ static bool write_blob(const scene_builder *builder, int output) {
     return ok;
 }
 
+/* Assimp reads no UTF-16 of most formats, and no number of COLLADA after a blank. */
+static bool make_readable(import_job *job, cli_error *error) {
+    const char *const dot = strrchr(job->name, '.');
+    if (!text_to_utf8(&job->data, &job->size))
+        return cli_fail(error, job->path, "does not fit into memory");
+    if (dot && strcasecmp(dot, ".dae") == 0)
+        job->size = text_trim_xml(job->data, job->size);
+    return true;
+}
+
 static bool import_in_child(void *context, int output, cli_error *error) {
     import_job *job = context;
     job->sources.sandboxed = true;
     scene_builder builder = { 0 };
-    if (!origin_read(job->read, job->data, job->size, &job->sources, &builder, error))
+    if (!make_readable(job, error) ||
+        !origin_read(job->read, job->data, job->size, &job->sources, &builder, error))
         return false;
     up_stand(&builder, job->up);
     if (!check_made(job, &builder, error) || !emission_add_lights(&builder, job->path, error) ||

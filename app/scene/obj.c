@@ -72,6 +72,8 @@ static int read_numbers(obj_reader *r, int least, int most, const double origin[
                         float *numbers) {
     int count = 0;
     for (const char *word; (word = words_next(&r->words)); count++) {
+        if (count >= 3 && most > 3 && count < most) /* a weight or a color: neither is read */
+            continue;
         if (count == most ||
             !words_coordinate(word, count < 3 ? origin[count] : 0.0, &numbers[count])) {
             fail(r, "has no finite number where one belongs, or too many");
