@@ -8,6 +8,8 @@
 #include <assimp/material.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+#include <strings.h>
 
 static void read_color(const struct aiMaterial *from, const char *key, float color[3]) {
     struct aiColor4D found;
@@ -28,7 +30,27 @@ static float number_of(const struct aiMaterial *from, const char *key, float fal
                : fallback;
 }
 
-static scene_wrap wrap_of(enum aiTextureMapMode mode) {
+/* A text as Assimp keeps it: its length, its bytes and a 0. Assimp itself ends the process where a
+ * file's is anything else. */
+static bool read_text(const struct aiMaterial *from, const char *key, unsigned type,
+                      char text[MAXLEN]) {
+    const struct aiMaterialProperty *found;
+    uint32_t length;
+    if (aiGetMaterialProperty(from, key, type, 0, &found) != aiReturn_SUCCESS ||
+        found->mType != aiPTI_String || found->mDataLength < sizeof length)
+        return false;
+    memcpy(&length, found->mData, sizeof length);
+    if (length >= MAXLEN || length > found->mDataLength - sizeof length)
+        return false;
+    memcpy(text, found->mData + sizeof length, length);
+    text[length] = 0;
+    return true;
+}
+
+static scene_wrap wrap_of(const struct aiMaterial *from, const char *key, unsigned type) {
+    int mode = aiTextureMapMode_Wrap;
+    unsigned count = 1;
+    aiGetMaterialIntegerArray(from, key, type, 0, &mode, &count);
     return mode == aiTextureMapMode_Clamp    ? SCENE_WRAP_CLAMP
            : mode == aiTextureMapMode_Mirror ? SCENE_WRAP_MIRROR
                                              : SCENE_WRAP_REPEAT;
@@ -36,44 +58,62 @@ static scene_wrap wrap_of(enum aiTextureMapMode mode) {
 
 static bool read_map(const struct aiMaterial *from, enum aiTextureType type, uint32_t srgb,
                      texture_files *files, scene_texture_use *use, cli_error *error) {
-    struct aiString path;
-    enum aiTextureMapMode modes[2] = { aiTextureMapMode_Wrap, aiTextureMapMode_Wrap };
-    if (aiGetMaterialTexture(from, type, 0, &path, NULL, NULL, NULL, NULL, modes, NULL) !=
-            aiReturn_SUCCESS ||
-        path.length == 0)
+    char path[MAXLEN];
+    if (!read_text(from, "$tex.file", type, path) || !path[0])
         return true;
-    if (path.data[0] == '*') {
+    if (path[0] == '*') {
         builder_left_out(files->images.builder, "embedded texture", "material", 1);
         return true;
     }
-    return texture_file_use(files, path.data, srgb, wrap_of(modes[0]), wrap_of(modes[1]), use,
-                            error);
+    return texture_file_use(files, path, srgb, wrap_of(from, "$tex.mapmodeu", type),
+                            wrap_of(from, "$tex.mapmodev", type), use, error);
 }
 
-static bool read_material(const struct aiMaterial *from, texture_files *files, cli_error *error) {
-    struct aiString name = { 0 };
+static float opacity_of(const struct aiMaterial *from) {
+    return number_of(from, "$mat.opacity", 1.0f);
+}
+
+/* COLLADA's transparency is 1 for what is opaque, but many exporters write 0 for it. One such
+ * material tells how the file counts. */
+static bool is_opacity_inverted(const struct aiScene *imported, const char *name) {
+    const char *const dot = strrchr(name, '.');
+    bool found = false;
+    for (unsigned i = 0; i < imported->mNumMaterials; i++)
+        found |= opacity_of(imported->mMaterials[i]) == 0.0f;
+    return found && dot && strcasecmp(dot, ".dae") == 0;
+}
+
+static bool read_material(const struct aiMaterial *from, bool inverted, texture_files *files,
+                          cli_error *error) {
+    char name[MAXLEN] = "";
     phong factors = { .diffuse = { 0.6f, 0.6f, 0.6f },
                       .exponent = number_of(from, "$mat.shininess", 0.0f),
-                      .opacity = number_of(from, "$mat.opacity", 1.0f) };
-    aiGetMaterialString(from, "?mat.name", 0, 0, &name);
+                      .opacity = opacity_of(from) };
+    if (inverted && factors.opacity < 1.0f)
+        factors.opacity = 1.0f - factors.opacity;
+    read_text(from, "?mat.name", 0, name);
     read_color(from, "$clr.diffuse", factors.diffuse);
     read_color(from, "$clr.specular", factors.specular);
     read_color(from, "$clr.emissive", factors.emission);
-    scene_material *to = builder_material(files->images.builder, name.data);
+    scene_material *to = builder_material(files->images.builder, name);
     if (!to)
         return cli_fail(error, files->sources->subject, "does not fit into memory");
     phong_apply(&factors, to);
-    return read_map(from, aiTextureType_DIFFUSE, 1, files, &to->base_color_map, error) &&
-           read_map(from, aiTextureType_NORMALS, 0, files, &to->normal_map, error) &&
-           read_map(from, aiTextureType_EMISSIVE, 1, files, &to->emission_map, error);
+    const bool ok = read_map(from, aiTextureType_DIFFUSE, 1, files, &to->base_color_map, error) &&
+                    read_map(from, aiTextureType_NORMALS, 0, files, &to->normal_map, error) &&
+                    read_map(from, aiTextureType_EMISSIVE, 1, files, &to->emission_map, error);
+    return ok;
 }
 
 bool assimp_add_materials(const struct aiScene *imported, source_set *sources,
                           scene_builder *builder, cli_error *error) {
     texture_files files = { .sources = sources, .images.builder = builder };
     bool ok = true;
+    const bool inverted = is_opacity_inverted(imported, sources->subject);
     for (unsigned i = 0; ok && i < imported->mNumMaterials; i++)
-        ok = read_material(imported->mMaterials[i], &files, error);
+        ok = read_material(imported->mMaterials[i], inverted, &files, error);
     free(files.images.items);
+    if (ok && !phong_tell_invisible(builder, "invisible by opacity 0"))
+        ok = cli_fail(error, sources->subject, "does not fit into memory");
     return ok;
 }

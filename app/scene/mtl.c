@@ -18,6 +18,7 @@ typedef struct mtl_reader {
     bool open; /* a newmtl has been */
     phong factors;
     int illumination;
+    bool dissolves;            /* d has been: Tr says nothing then */
     bool filters;              /* Tf lets colored light through a transparent material */
     float roughness, metallic; /* below 0: not said */
     size_t material;
@@ -43,8 +44,6 @@ static void finish_material(mtl_reader *r) {
         memset(r->factors.specular, 0, sizeof r->factors.specular);
     scene_material *material = material_of(r);
     phong_apply(&r->factors, material);
-    if (material->base_color[3] == 0.0f)
-        builder_left_out(r->files->images.builder, "invisible by d 0", "material", 1);
     if (r->filters && material->base_color[3] < 1.0f)
         builder_left_out(r->files->images.builder, "Tf", "material", 1);
     if (r->roughness >= 0.0f)
@@ -75,7 +74,7 @@ static bool new_material(mtl_reader *r) {
     r->open = true;
     r->factors = (phong) { .diffuse = { 0.6f, 0.6f, 0.6f }, .opacity = 1.0f };
     r->illumination = 2;
-    r->filters = false;
+    r->dissolves = r->filters = false;
     r->roughness = r->metallic = -1.0f;
     return true;
 }
@@ -105,6 +104,11 @@ static bool read_color(mtl_reader *r, float color[3]) {
     return true;
 }
 
+/* Exporters that write 1 mean an opacity, for nobody writes down what is not there. */
+static float opacity_of(float transparency) {
+    return transparency == 1.0f ? 1.0f : 1.0f - transparency;
+}
+
 /* Reads a factor, if the keyword is one: then it is known, and *valid says whether it can be read.
  */
 static bool read_factor(mtl_reader *r, const char *keyword, bool *valid) {
@@ -131,9 +135,11 @@ static bool read_factor(mtl_reader *r, const char *keyword, bool *valid) {
         r->illumination = ok && number < 2.0f ? 0 : 2;
     } else if (strcasecmp(keyword, "d") == 0) {
         ok = read_number(r, &r->factors.opacity);
+        r->dissolves |= ok;
     } else if (strcasecmp(keyword, "Tr") == 0) {
         ok = read_number(r, &number);
-        r->factors.opacity = ok ? 1.0f - number : r->factors.opacity;
+        if (ok && !r->dissolves)
+            r->factors.opacity = opacity_of(number);
     } else {
         known = false;
     }

@@ -4,6 +4,7 @@
 #include "app/sandbox/sandbox.h"
 #include "app/scene/mesh.h"
 #include "app/scene/mtl.h"
+#include "app/scene/phong.h"
 #include "app/scene/sides.h"
 #include "app/scene/vector.h"
 #include "app/scene/words.h"
@@ -348,7 +349,8 @@ static bool read_all(obj_reader *r) {
                      i + 1 < r->runs.count ? runs[i + 1].first_corner : r->corners.count))
             return false;
     builder_instances(r->builder, 0);
-    return sides_turn_outwards(r->builder, r->unsided.items, r->unsided.count) ||
+    return (sides_turn_outwards(r->builder, r->unsided.items, r->unsided.count) &&
+            phong_tell_invisible(r->builder, "invisible by d 0")) ||
            cli_fail(r->error, r->sources->subject, "does not fit into memory");
 }
 

@@ -124,15 +124,66 @@ static void a_cutoff_above_1_hides_the_surface(void **state) {
     }
 }
 
+/* What is said of a scene that leaves out one thing; "" of one that leaves out nothing. */
+static const char *told_of(const scene *world) {
+    static char said[256];
+    said[0] = 0;
+    assert_true(world->left_out_count <= 1);
+    if (world->left_out_count == 1)
+        scene_left_out_text(world->left_out, said, sizeof said);
+    return said;
+}
+
 static void an_opacity_of_0_is_told(void **state) {
+    (void)state;
+    folder_write_text("m.mtl", "newmtl m\nKd 1 1 1\nd 0\nnewmtl n\n");
+    folder_write_text("d.obj", "mtllib m.mtl\n" CORNERS "usemtl m\nf 1 2 3\nusemtl n\nf 1 2 3\n");
+    scene world = load(in_folder("d.obj"));
+    assert_string_equal(told_of(&world), "invisible by d 0 (1 material)");
+    assert_true(world.materials[world.meshes[0].material].base_color[3] == 0);
+    scene_free(&world);
+}
+
+/* Nobody means an empty image. */
+static void what_would_all_be_invisible_is_opaque(void **state) {
     (void)state;
     folder_write_text("m.mtl", "newmtl m\nKd 1 1 1\nd 0\n");
     folder_write_text("d.obj", "mtllib m.mtl\n" CORNERS "usemtl m\nf 1 2 3\n");
     scene world = load(in_folder("d.obj"));
-    char said[256] = "";
-    assert_int_equal(world.left_out_count, 1);
-    scene_left_out_text(world.left_out, said, sizeof said);
-    assert_string_equal(said, "invisible by d 0 (1 material)");
+    assert_string_equal(told_of(&world), "opacity 0 of all there is (1 material)");
+    assert_true(is_seen(&world, 1));
+    scene_free(&world);
+}
+
+/* Tr is 1 - d, but some exporters write 1 for what is opaque; d says it without doubt. */
+static void a_transparency_of_1_is_none(void **state) {
+    (void)state;
+    static const struct {
+        const char *statements;
+        float opacity;
+    } cases[] = { { "Tr 1", 1 },
+                  { "Tr 0.25", 0.75f },
+                  { "Tr 0", 1 },
+                  { "d 0.5\nTr 1", 0.5f },
+                  { "Tr 1\nd 0.5", 0.5f } };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "newmtl m\n%s\n", cases[i].statements);
+        folder_write_text("m.mtl", text);
+        folder_write_text("d.obj", "mtllib m.mtl\n" CORNERS "usemtl m\nf 1 2 3\n");
+        scene world = load(in_folder("d.obj"));
+        assert_true(world.materials[world.meshes[0].material].base_color[3] == cases[i].opacity);
+        assert_string_equal(told_of(&world), "");
+        scene_free(&world);
+    }
+}
+
+/* They are left out in any case. */
+static void a_color_of_a_vertex_need_be_no_number(void **state) {
+    (void)state;
+    folder_write_text("v.obj", "v 0 0 0 nan nan nan\nv 1 0 0 1 1 1\nv 0 1 0 inf 0 -\nf 1 2 3\n");
+    scene world = load(in_folder("v.obj"));
+    assert_string_equal(told_of(&world), "3 vertex colors");
     scene_free(&world);
 }
 
@@ -144,6 +195,9 @@ int main(void) {
         cmocka_unit_test(a_model_of_any_size_has_its_normals_and_is_framed),
         cmocka_unit_test(a_cutoff_above_1_hides_the_surface),
         cmocka_unit_test(an_opacity_of_0_is_told),
+        cmocka_unit_test(what_would_all_be_invisible_is_opaque),
+        cmocka_unit_test(a_transparency_of_1_is_none),
+        cmocka_unit_test(a_color_of_a_vertex_need_be_no_number),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
