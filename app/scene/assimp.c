@@ -9,6 +9,7 @@
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
 #include <assimp/config.h>
+#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <stdlib.h>
 #include <string.h>
@@ -156,7 +157,8 @@ static const struct aiScene *run_assimp(assimp_job *job, cli_error *error) {
     /* some readers look for the folder of a name alone in vain, and take the name for it */
     char path[512];
     snprintf(path, sizeof path, "./%s", job->name);
-    const struct aiScene *imported = aiImportFileExWithProperties(path, 0, &io, properties);
+    const struct aiScene *imported =
+        aiImportFileExWithProperties(path, aiProcess_GenUVCoords, &io, properties);
     aiReleasePropertyStore(properties);
     /* A file that is not read is the likely cause of what Assimp says, and else is left out. */
     if (job->refusal.text[0] && (job->out_of_memory || !imported || !imported->mRootNode)) {
@@ -370,6 +372,9 @@ bool assimp_add(const void *data, size_t size, source_set *sources, scene_builde
     builder_left_out(builder, NULL, "light", imported->mNumLights);
     builder_left_out(builder, NULL, "camera", imported->mNumCameras);
     builder_left_out(builder, NULL, "animation", imported->mNumAnimations);
-    aiReleaseImport(imported);
+    /* A child process ends by itself, and some of Assimp's readers leave behind what cannot be
+     * freed: textures of 3MF end in an abort. */
+    if (!sources->sandboxed)
+        aiReleaseImport(imported);
     return ok;
 }

@@ -69,6 +69,19 @@ static bool read_map(const struct aiMaterial *from, enum aiTextureType type, uin
                             wrap_of(from, "$tex.mapmodev", type), use, error);
 }
 
+/* In the formats of fixed pipelines emission is a part of how a surface looks: the texture colors
+ * it, too, and it lights nothing else. */
+static void soften_emission(scene_material *material) {
+    float most = 0.0f;
+    for (int k = 0; k < 3; k++)
+        most = fmaxf(most, material->emission[k]);
+    if (!(most > 0.0f && most <= 1.0f))
+        return;
+    material->flags |= SCENE_GLOWS_ALONE;
+    if (material->emission_map.texture < 0)
+        material->emission_map = material->base_color_map;
+}
+
 static float opacity_of(const struct aiMaterial *from) {
     return number_of(from, "$mat.opacity", 1.0f);
 }
@@ -102,7 +115,28 @@ static bool read_material(const struct aiMaterial *from, bool inverted, texture_
     const bool ok = read_map(from, aiTextureType_DIFFUSE, 1, files, &to->base_color_map, error) &&
                     read_map(from, aiTextureType_NORMALS, 0, files, &to->normal_map, error) &&
                     read_map(from, aiTextureType_EMISSIVE, 1, files, &to->emission_map, error);
+    soften_emission(to);
     return ok;
+}
+
+/* A texture that no mesh says how to lay on would show one of its texels. */
+static void drop_maps_without_coordinates(const struct aiScene *imported, scene_builder *builder) {
+    scene_material *const materials = builder_items(builder, BLOB_MATERIALS);
+    for (unsigned i = 0; i < imported->mNumMaterials; i++) {
+        size_t with = 0, without = 0;
+        for (unsigned k = 0; k < imported->mNumMeshes; k++)
+            if (imported->mMeshes[k]->mMaterialIndex == i)
+                *(imported->mMeshes[k]->mTextureCoords[0] ? &with : &without) += 1;
+        scene_texture_use *const maps[] = { &materials[i].base_color_map, &materials[i].normal_map,
+                                            &materials[i].emission_map };
+        bool dropped = false;
+        for (size_t k = 0; with == 0 && k < sizeof maps / sizeof *maps; k++) {
+            dropped |= maps[k]->texture >= 0;
+            maps[k]->texture = -1;
+        }
+        if (dropped)
+            builder_left_out(builder, "missing texture coordinates", "mesh", without);
+    }
 }
 
 bool assimp_add_materials(const struct aiScene *imported, source_set *sources,
@@ -113,6 +147,8 @@ bool assimp_add_materials(const struct aiScene *imported, source_set *sources,
     for (unsigned i = 0; ok && i < imported->mNumMaterials; i++)
         ok = read_material(imported->mMaterials[i], inverted, &files, error);
     free(files.images.items);
+    if (ok)
+        drop_maps_without_coordinates(imported, builder);
     if (ok && !phong_tell_invisible(builder, "invisible by opacity 0"))
         ok = cli_fail(error, sources->subject, "does not fit into memory");
     return ok;

@@ -59,7 +59,8 @@ bool emission_add_lights(scene_builder *builder, const char *subject, cli_error 
     for (size_t i = 0; i < world.instance_count; i++) {
         const scene_material *material = &materials[world.meshes[world.instances[i].mesh].material];
         const float *emission = material->emission;
-        if (material->emission_map.texture >= 0 || (material->flags & SCENE_UNLIT) ||
+        if (material->emission_map.texture >= 0 ||
+            material->flags & (SCENE_UNLIT | SCENE_GLOWS_ALONE) ||
             !(emission[0] + emission[1] + emission[2] > 0.0f))
             continue;
         double area;

@@ -42,6 +42,7 @@ typedef enum scene_flags {
     SCENE_UNLIT = 8,         /* its emission is what one sees, and no light to others */
     SCENE_ALPHA_BLEND = 16,  /* by alpha, it hides what is behind it */
     SCENE_SIDES_UNSAID = 32, /* double-sided, as its format says nothing of sides; glows by one */
+    SCENE_GLOWS_ALONE = 64,  /* its emission is a look, and no light to others */
 } scene_flags;
 
 /* A texture and how its coordinates are made: uv' = matrix uv + offset (KHR_texture_transform). */

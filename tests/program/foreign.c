@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: MIT */
+/* What programs write into the formats that Assimp reads, and how it is meant. */
+#include "app/scene/instance.h"
+#include "app/scene/scene.h"
+#include "tests/program/folder.h"
+#include "tests/program/load.h"
+
+/* Two triangles of two materials, of what the effects say. */
+#define COLLADA_HEAD                                                                               \
+    "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "      \
+    "version=\"1.4.1\"><asset><up_axis>Y_UP</up_axis></asset>"
+#define EFFECT(id, contents)                                                                       \
+    "<effect id=\"e" id "\"><profile_COMMON><technique sid=\"c\"><phong>" contents                 \
+    "</phong></technique></profile_COMMON></effect>"
+#define MATERIAL(id) "<material id=\"m" id "\"><instance_effect url=\"#e" id "\"/></material>"
+#define TRIANGLES(id)                                                                              \
+    "<triangles count=\"1\" material=\"s" id                                                       \
+    "\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles>"
+#define BIND(id) "<instance_material symbol=\"s" id "\" target=\"#m" id "\"/>"
+#define COLLADA(first, second)                                                                     \
+    COLLADA_HEAD "<library_effects>" EFFECT("0", first)                                            \
+        EFFECT("1", second) "</library_effects><library_materials>" MATERIAL("0") MATERIAL(        \
+            "1") "</library_materials><library_geometries><geometry id=\"g\"><mesh><source "       \
+                 "id=\"p\">"                                                                       \
+                 "<float_array id=\"a\" count=\"9\">0 0 0 1 0 0 0 1 "                              \
+                 "0</float_array><technique_common>"                                               \
+                 "<accessor source=\"#a\" count=\"3\" stride=\"3\"><param name=\"X\" "             \
+                 "type=\"float\"/>"                                                                \
+                 "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>" \
+                 "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "    \
+                 "source=\"#p\"/></vertices>" TRIANGLES("0") TRIANGLES(                            \
+                     "1") "</mesh></geometry>"                                                     \
+                          "</library_geometries><library_visual_scenes><visual_scene "             \
+                          "id=\"s\"><node>"                                                        \
+                          "<instance_geometry url=\"#g\"><bind_material><technique_common>" BIND(  \
+                              "0")                                                                 \
+                              BIND("1") "</technique_common></bind_material></"                    \
+                                        "instance_geometry></node></visual_scene>"                 \
+                                        "</library_visual_scenes><scene><instance_visual_scene "   \
+                                        "url=\"#s\"/></scene></COLLADA>"
+
+#define TRANSPARENT(number)                                                                        \
+    "<transparent><color>0 0 0 1</color></transparent><transparency><float>" number                \
+    "</float></transparency>"
+#define DIFFUSE(color) "<diffuse><color>" color "</color></diffuse>"
+
+static scene load_text(const char *name, const char *text) {
+    folder_write_text(name, text);
+    return load(in_folder(name));
+}
+
+static const scene_material *material_of(const scene *s, size_t mesh) {
+    return &s->materials[s->meshes[mesh].material];
+}
+
+static void assert_opacities(const char *text, float first, float second) {
+    scene s = load_text("o.dae", text);
+    assert_int_equal(s.mesh_count, 2);
+    assert_true(material_of(&s, 0)->base_color[3] == first);
+    assert_true(material_of(&s, 1)->base_color[3] == second);
+    assert_int_equal(s.left_out_count, 0);
+    scene_free(&s);
+}
+
+/* The format says that 1 is opaque; who writes 0 for what is, means the opposite everywhere. */
+static void a_collada_counts_opacity_as_its_exporter_does(void **state) {
+    (void)state;
+    assert_opacities(COLLADA(TRANSPARENT("1"), TRANSPARENT("0.25")), 1, 0.25f);
+    assert_opacities(COLLADA(TRANSPARENT("0"), TRANSPARENT("0.25")), 1, 0.75f);
+    assert_opacities(COLLADA(TRANSPARENT("0"), TRANSPARENT("0")), 1, 1);
+    assert_opacities(COLLADA(TRANSPARENT("0"), TRANSPARENT("1")), 1, 1);
+}
+
+static void blanks_before_a_number_do_not_count(void **state) {
+    (void)state;
+    scene s = load_text("b.dae", COLLADA(DIFFUSE(" \n\t 0.25 0.5 0.75 1 "), DIFFUSE("1 1 1 1")));
+    CHECK_WITHIN(fabs((double)material_of(&s, 0)->base_color[1] - 0.5), 1e-6);
+    scene_free(&s);
+}
+
+/* As fixed pipelines had it: emission is a part of the color, and lights nothing. */
+static void emission_of_fixed_pipelines_is_no_lamp(void **state) {
+    (void)state;
+    static const char glowing[] =
+        COLLADA("<emission><color>0.25 0.5 1 1</color></emission>", DIFFUSE("1 1 1 1"));
+    static const char shining[] =
+        COLLADA("<emission><color>3 3 3 1</color></emission>", DIFFUSE("1 1 1 1"));
+    scene s = load_text("e.dae", glowing);
+    CHECK_WITHIN(fabs((double)material_of(&s, 0)->emission[1] - 0.5), 1e-6);
+    assert_int_equal(s.light_count, 0);
+    scene_free(&s);
+    s = load_text("e.dae", shining);
+    assert_int_equal(s.light_count, 1);
+    scene_free(&s);
+}
+
+/* Each object of a RAW file is shown, though Assimp forgets the node of the last. */
+static void a_raw_file_shows_all_its_objects(void **state) {
+    (void)state;
+    scene s = load_text("r.raw", "One\n1 1 1 0 0 0 0 1 0 1 0 0\nTwo\n1 1 1 2 0 0 2 1 0 3 0 0\n");
+    assert_int_equal(scene_triangle_count(&s), 2);
+    scene_free(&s);
+}
+
+/* Little-endian and big-endian, with their mark. */
+static size_t to_utf16(const char *text, bool big, unsigned char *out) {
+    size_t used = 0;
+    out[used++] = big ? 0xfe : 0xff;
+    out[used++] = big ? 0xff : 0xfe;
+    for (; *text; text++) {
+        out[used + (big ? 1 : 0)] = (unsigned char)*text;
+        out[used + (big ? 0 : 1)] = 0;
+        used += 2;
+    }
+    return used;
+}
+
+static void files_may_be_utf16(void **state) {
+    (void)state;
+    static const char obj[] = "o \nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    static const char off[] = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    static const char dae[] = COLLADA(DIFFUSE("1 1 1 1"), DIFFUSE("1 1 1 1"));
+    static const struct {
+        const char *name, *text;
+        size_t triangles;
+    } files[] = { { "u.obj", obj, 1 }, { "u.off", off, 1 }, { "u.dae", dae, 2 } };
+    static unsigned char bytes[2 * sizeof dae + 2];
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        for (int big = 0; big < 2; big++) {
+            folder_write(files[i].name, bytes, to_utf16(files[i].text, big, bytes));
+            scene s = load(in_folder(files[i].name));
+            assert_int_equal(scene_triangle_count(&s), files[i].triangles);
+            scene_free(&s);
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_collada_counts_opacity_as_its_exporter_does),
+        cmocka_unit_test(blanks_before_a_number_do_not_count),
+        cmocka_unit_test(emission_of_fixed_pipelines_is_no_lamp),
+        cmocka_unit_test(a_raw_file_shows_all_its_objects),
+        cmocka_unit_test(files_may_be_utf16),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
