@@ -9,7 +9,9 @@
 #include "app/scene/gltf.h"
 #include "app/scene/instance.h"
 #include "app/scene/obj.h"
+#include "app/scene/off.h"
 #include "app/scene/origin.h"
+#include "app/scene/ply.h"
 #include "app/scene/text.h"
 #include "app/scene/up.h"
 
@@ -184,6 +186,10 @@ static origin_reader *reader_of(const char *path, const void *data, size_t size)
         return gltf_add;
     if (dot && strcasecmp(dot, ".obj") == 0)
         return obj_add;
+    if (dot && strcasecmp(dot, ".ply") == 0)
+        return ply_add;
+    if (dot && strcasecmp(dot, ".off") == 0)
+        return off_add;
     return dot && assimp_knows(dot) ? assimp_add : NULL;
 }
 

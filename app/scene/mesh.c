@@ -100,7 +100,7 @@ static lmp_vec3 triangle_normal(const mesh_draft *f, size_t triangle) {
 /* Lets triangles be counter-clockwise as their normals see them: in formats that cull nothing,
  * clockwise meshes are as good. Where most are so already, both say which side is the front. */
 static void follow_normals(mesh_draft *f) {
-    size_t turned = 0;
+    size_t flipped = 0;
     for (size_t i = 0; i < f->corner_count; i += 3) {
         uint32_t *c = &f->corners[i];
         lmp_vec3 given = vec(0.0f, 0.0f, 0.0f);
@@ -110,10 +110,10 @@ static void follow_normals(mesh_draft *f) {
             const uint32_t second = c[1];
             c[1] = c[2];
             c[2] = second;
-            turned++;
+            flipped++;
         }
     }
-    f->sided = turned < f->corner_count / 3 / DISAGREEING;
+    f->sided = flipped < f->corner_count / 3 / DISAGREEING;
 }
 
 /* --- missing normals -------------------------------------------------------------------------- */

@@ -17,7 +17,7 @@ typedef struct body {
     float low[3], high[3];
     size_t triangles, open; /* edges without a triangle at their other side */
     uint32_t mesh;          /* the first one's */
-    bool turns;
+    bool flips;
 } body;
 
 typedef struct sides {
@@ -221,31 +221,31 @@ static bool is_meant(const sides *s, const body *b) {
 }
 
 static void decide(sides *s, size_t clockwise) {
-    size_t turned = 0, right = 0;
+    size_t flipped = 0, right = 0;
     for (size_t i = 0; i < s->body_count; i++) {
         body *const b = &s->bodies[i];
         if (!is_closed(b))
             continue;
-        b->turns = b->inside < 0.0 && (clockwise * s->body_count > PAIRS_MOST || !is_meant(s, b));
-        *(b->turns ? &turned : &right) += b->triangles;
+        b->flips = b->inside < 0.0 && (clockwise * s->body_count > PAIRS_MOST || !is_meant(s, b));
+        *(b->flips ? &flipped : &right) += b->triangles;
     }
     for (size_t i = 0; i < s->body_count; i++)
-        if (turned > right && !is_closed(&s->bodies[i]))
-            s->bodies[i].turns = true;
+        if (flipped > right && !is_closed(&s->bodies[i]))
+            s->bodies[i].flips = true;
 }
 
-static void turn(sides *s) {
+static void flip(sides *s) {
     for (size_t m = 0; m < s->mesh_count; m++)
         for (uint32_t i = 0; i < corner_count(s, m); i += 3) {
             uint32_t *const c = corners_of(s, m) + i;
-            if (s->bodies[s->joined[c[0] - s->first]].turns) {
+            if (s->bodies[s->joined[c[0] - s->first]].flips) {
                 const uint32_t second = c[1];
                 c[1] = c[2];
                 c[2] = second;
             }
         }
     for (uint32_t i = 0; i < s->vertex_count; i++)
-        if (s->bodies[s->joined[i]].turns) {
+        if (s->bodies[s->joined[i]].flips) {
             for (int k = 0; k < 3; k++)
                 s->vertices[i].normal[k] = -s->vertices[i].normal[k];
             s->vertices[i].tangent[3] = -s->vertices[i].tangent[3];
@@ -291,7 +291,7 @@ bool sides_turn_outwards(scene_builder *builder, const uint32_t *meshes, size_t 
     ok = ok && (clockwise == 0 || count_open_edges(&s, same));
     if (ok && clockwise > 0) {
         decide(&s, clockwise);
-        turn(&s);
+        flip(&s);
     }
     free(same);
     free(s.joined);
