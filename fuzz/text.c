@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Text files: what was UTF-16 is UTF-8, and nothing grows beyond what was made room for. */
+/* Text files: what was UTF-16 is UTF-8, and nothing grows beyond what was made room for; and the
+ * accessors of COLLADA. */
 #include "app/scene/text.h"
+#include "app/scene/collada.h"
 #include "fuzz/numbers.h"
 
 #include <stdlib.h>
@@ -29,7 +31,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     size_t used = size;
     if (text_to_utf8(&text, &used)) {
         fuzz_expect(marked ? is_utf8(text, used) : used == size && !memcmp(text, data, size));
-        fuzz_expect(text_trim_xml(text, used) <= used);
+        const size_t trimmed = text_trim_xml(text, used);
+        cli_error error;
+        fuzz_expect(trimmed <= used);
+        collada_check(text, trimmed, "input", &error);
     }
     free(text);
     return 0;

@@ -11,6 +11,7 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -355,6 +356,10 @@ bool assimp_add(const void *data, size_t size, source_set *sources, scene_builde
     const double *const origin = builder->origin;
     const double scene_from_file[16] = { 1, 0, 0, 0, 0,          1,          0,          0,
                                          0, 0, 1, 0, -origin[0], -origin[1], -origin[2], 1 };
+    /* What Assimp forgets to set is 0, and the same in every run: memory is filled by the
+     * complement of the number, and by the number when it is freed. */
+    if (sources->sandboxed)
+        mallopt(M_PERTURB, 0xff);
     const struct aiScene *imported = run_assimp(&job, error);
     if (!imported)
         return false;

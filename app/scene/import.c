@@ -5,6 +5,7 @@
 #include "app/scene/assimp.h"
 #include "app/scene/builder.h"
 #include "app/scene/cache.h"
+#include "app/scene/collada.h"
 #include "app/scene/emission.h"
 #include "app/scene/gltf.h"
 #include "app/scene/instance.h"
@@ -149,9 +150,10 @@ static bool make_readable(import_job *job, cli_error *error) {
     const char *const dot = strrchr(job->name, '.');
     if (!text_to_utf8(&job->data, &job->size))
         return cli_fail(error, job->path, "does not fit into memory");
-    if (dot && strcasecmp(dot, ".dae") == 0)
-        job->size = text_trim_xml(job->data, job->size);
-    return true;
+    if (!dot || strcasecmp(dot, ".dae") != 0)
+        return true;
+    job->size = text_trim_xml(job->data, job->size);
+    return collada_check(job->data, job->size, job->path, error);
 }
 
 static bool import_in_child(void *context, int output, cli_error *error) {

@@ -134,6 +134,30 @@ static void files_may_be_utf16(void **state) {
         }
 }
 
+/* Assimp reads what lies beyond an array, other bytes in every run. */
+static void an_accessor_past_its_array_is_refused(void **state) {
+    (void)state;
+    static const char good[] = COLLADA(DIFFUSE("1 1 1 1"), DIFFUSE("1 1 1 1"));
+    static const char *const changes[][2] = { { "count=\"9\"", "count=\"6\"" },
+                                              { "count=\"3\" stride", "count=\"4\" stride" },
+                                              { "stride=\"3\"", "stride='4'" },
+                                              { "stride=\"3\"", "stride=\"3\" offset = \"1\"" },
+                                              { "stride=\"3\"", "stride=\"many\"" } };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        char text[sizeof good + 64];
+        scene s;
+        cli_error error = { "" };
+        const char *const at = strstr(good, changes[i][0]);
+        assert_non_null(at);
+        snprintf(text, sizeof text, "%.*s%s%s", (int)(at - good), good, changes[i][1],
+                 at + strlen(changes[i][0]));
+        folder_write_text("a.dae", text);
+        assert_false(
+            scene_load(in_folder("a.dae"), &(scene_options) { .no_cache = true }, &s, &error));
+        assert_non_null(strstr(error.text, "an accessor reaches past its array, \"a\""));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_collada_counts_opacity_as_its_exporter_does),
@@ -141,6 +165,7 @@ int main(void) {
         cmocka_unit_test(emission_of_fixed_pipelines_is_no_lamp),
         cmocka_unit_test(a_raw_file_shows_all_its_objects),
         cmocka_unit_test(files_may_be_utf16),
+        cmocka_unit_test(an_accessor_past_its_array_is_refused),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
