@@ -341,6 +341,22 @@ static bool add_lost(assimp_job *job, const struct aiScene *imported, const doub
     return end_meshes(job, error);
 }
 
+/* Meshes whose vertices have colors that would show. Those that are not opaque are what Assimp's
+ * readers make of none. */
+static size_t count_colored(const struct aiScene *imported) {
+    size_t count = 0;
+    for (unsigned i = 0; i < imported->mNumMeshes; i++) {
+        const struct aiMesh *const mesh = imported->mMeshes[i];
+        bool colored = false;
+        for (unsigned k = 0; mesh->mColors[0] && k < mesh->mNumVertices && !colored; k++) {
+            const struct aiColor4D c = mesh->mColors[0][k];
+            colored = c.a >= 1.0f && !(c.r == 1.0f && c.g == 1.0f && c.b == 1.0f);
+        }
+        count += colored;
+    }
+    return count;
+}
+
 bool assimp_knows(const char *ending) {
     return aiIsExtensionSupported(ending) == AI_TRUE;
 }
@@ -374,6 +390,7 @@ bool assimp_add(const void *data, size_t size, source_set *sources, scene_builde
                     assimp_add_materials(imported, sources, builder, error);
     free(job.shared);
     free(job.unsided);
+    builder_left_out(builder, "vertex colors", "mesh", count_colored(imported));
     builder_left_out(builder, NULL, "light", imported->mNumLights);
     builder_left_out(builder, NULL, "camera", imported->mNumCameras);
     builder_left_out(builder, NULL, "animation", imported->mNumAnimations);

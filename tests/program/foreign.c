@@ -94,6 +94,27 @@ static void emission_of_fixed_pipelines_is_no_lamp(void **state) {
     scene_free(&s);
 }
 
+/* White says nothing. */
+static void colors_of_vertices_are_told_of(void **state) {
+    (void)state;
+    for (int colored = 0; colored < 2; colored++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "<?xml version=\"1.0\"?><amf><object id=\"1\"><mesh><vertices>"
+                 "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates>%s</vertex>"
+                 "<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>"
+                 "<vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex></vertices>"
+                 "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>"
+                 "</mesh></object></amf>",
+                 colored ? "<color><r>1</r><g>0</g><b>0</b></color>" : "");
+        scene s = load_text("c.amf", text);
+        assert_int_equal(s.left_out_count, colored);
+        if (colored)
+            assert_string_equal(s.left_out[0].what, "vertex colors");
+        scene_free(&s);
+    }
+}
+
 /* Each object of a RAW file is shown, though Assimp forgets the node of the last. */
 static void a_raw_file_shows_all_its_objects(void **state) {
     (void)state;
@@ -163,6 +184,7 @@ int main(void) {
         cmocka_unit_test(a_collada_counts_opacity_as_its_exporter_does),
         cmocka_unit_test(blanks_before_a_number_do_not_count),
         cmocka_unit_test(emission_of_fixed_pipelines_is_no_lamp),
+        cmocka_unit_test(colors_of_vertices_are_told_of),
         cmocka_unit_test(a_raw_file_shows_all_its_objects),
         cmocka_unit_test(files_may_be_utf16),
         cmocka_unit_test(an_accessor_past_its_array_is_refused),
