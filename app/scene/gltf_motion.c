@@ -69,9 +69,15 @@ static bool read_channel(const gltf *document, const cJSON *sampler, channel *c,
                                                    : CURVE_LINEAR;
     c->count = document->accessors[input].count;
     return gltf_read_floats(document, input, &c->times, error) &&
-           gltf_read_floats(document, (size_t)gltf_index(sampler, "output"), &c->values, error) &&
-           (times_rise(c) ||
-            gltf_fail(document, GLTF_ACCESSORS, input, "has times that do not rise", error));
+           gltf_read_floats(document, (size_t)gltf_index(sampler, "output"), &c->values, error);
+}
+
+/* Without it the node rests. */
+static void drop_channel(const gltf *document, channel *c) {
+    free(c->times);
+    free(c->values);
+    c->times = c->values = NULL;
+    builder_left_out(document->builder, "times that do not rise", "animation channel", 1);
 }
 
 /* All animations of the file play at once; of two for one property the first counts. */
@@ -86,6 +92,10 @@ static bool read_channels(const gltf *document, gltf_motions *all, cli_error *er
             const cJSON *sampler = cJSON_GetArrayItem(samplers, (int)gltf_index(entry, "sampler"));
             if (!read_channel(document, sampler, c, error))
                 return false;
+            if (!times_rise(c)) {
+                drop_channel(document, c);
+                continue;
+            }
             all->period = fmax(all->period, (double)c->times[c->count - 1]);
         }
     }
