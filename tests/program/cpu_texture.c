@@ -33,7 +33,9 @@ static void look(const cpu_textures *textures, float u, float v, float across, f
     const cpu_footprint at = { .uv = { { u, v } },
                                .across = { { across, 0 } },
                                .down = { { 0, down } } };
-    cpu_texture_at(textures, &whole, &at, rgba);
+    cpu_cover cover;
+    cpu_texture_cover(textures, &whole, &at, &cover);
+    cpu_texture_read(textures, &whole, &cover, rgba);
 }
 
 /* A texture seen as one pixel is its mean, odd sides or not; that of sRGB is taken of linear

@@ -12,6 +12,8 @@ typedef struct point {
     lmp_vec3 smooth; /* the unit normal between the corners', on the front side */
     float side;      /* -1 where the back is seen */
     cpu_footprint footprint;
+    const scene_texture_use *covered; /* what the cover was found for, or NULL */
+    cpu_cover cover;
 } point;
 
 static lmp_vec3 mix(const float *a, const float *b, const float *c, const float weights[3]) {
@@ -19,50 +21,47 @@ static lmp_vec3 mix(const float *a, const float *b, const float *c, const float 
                    vec_add(vec_scale(vec_load(b), weights[1]), vec_scale(vec_load(c), weights[2])));
 }
 
-/* How weights of the second and third corner change along the plane, from the ray of a pixel to one
- * whose origin or direction is another. */
-static void change_of_weights(const render_camera *camera, const float direction[3], float distance,
-                              const lmp_vec3 edges[2], lmp_vec3 normal, const float step[3],
-                              float change[2]) {
-    const lmp_vec3 d = vec_load(direction), aside = vec_load(step);
-    const lmp_vec3 moved = vec_scale(aside, camera->parallel ? 1 : distance);
-    const float facing = vec_dot(normal, d), size2 = vec_dot(normal, normal);
-    const lmp_vec3 along = vec_scale(d, -vec_dot(normal, moved) / facing);
-    const lmp_vec3 dp = vec_add(moved, along);
-    change[0] = vec_dot(vec_cross(dp, edges[1]), normal) / size2;
-    change[1] = vec_dot(vec_cross(edges[0], dp), normal) / size2;
-}
-
-/* The texture coordinates of the pixel and of those beside it. */
-static void set_footprint(const render_camera *camera, const float direction[3], float distance,
-                          const lmp_vec3 edges[2], lmp_vec3 normal, point *p) {
-    float sides[2][3], change[2][2];
-    for (int c = 0; c < 3; c++) {
-        sides[0][c] = camera->right[c] * (2 / (float)camera->width);
-        sides[1][c] = camera->down[c] * (2 / (float)camera->height);
+/* The texture coordinates of the pixel and of those beside it: how they change along the plane,
+ * from the ray of a pixel to one whose origin or direction is another. */
+static void set_footprint(const render_camera *camera, const cpu_triangle *t, lmp_vec3 d,
+                          float distance, point *p) {
+    const float reach = camera->parallel ? 1 : distance, facing = 1 / vec_dot(t->face, d);
+    const float *const sides[2] = { camera->right, camera->down };
+    lmp_vec3 along[2];
+    for (int k = 0; k < 2; k++) {
+        const lmp_vec3 moved = vec_scale(vec_load(sides[k]), camera->step[k] * reach);
+        along[k] = vec_sub(moved, vec_scale(d, vec_dot(t->face, moved) * facing));
     }
-    for (int k = 0; k < 2; k++)
-        change_of_weights(camera, direction, distance, edges, normal, sides[k], change[k]);
     for (int set = 0; set < 2; set++)
-        for (int i = 0; i < 2; i++) {
+        for (int i = 0; i < 2 && t->read[set]; i++) {
             const float a = p->corners[0].uv[set][i], b = p->corners[1].uv[set][i] - a;
             const float c = p->corners[2].uv[set][i] - a;
             p->footprint.uv[set][i] = a + p->weights[1] * b + p->weights[2] * c;
-            p->footprint.across[set][i] = change[0][0] * b + change[0][1] * c;
-            p->footprint.down[set][i] = change[1][0] * b + change[1][1] * c;
+            p->footprint.across[set][i] = vec_dot(t->slope[set][i], along[0]);
+            p->footprint.down[set][i] = vec_dot(t->slope[set][i], along[1]);
         }
 }
 
 /* White where there is no map. */
-static void look_up(const point *p, const scene_texture_use *use, float rgba[4]) {
-    if (use->texture >= 0)
-        cpu_texture_at(p->textures, use, &p->footprint, rgba);
-    else
+static void look_up(point *p, const scene_texture_use *use, float rgba[4]) {
+    if (use->texture < 0) {
         rgba[0] = rgba[1] = rgba[2] = rgba[3] = 1;
+        return;
+    }
+    if (!p->covered || !cpu_textures_alike(p->textures, p->covered, use)) {
+        cpu_texture_cover(p->textures, use, &p->footprint, &p->cover);
+        p->covered = use;
+    }
+    cpu_texture_read(p->textures, use, &p->cover, rgba);
+}
+
+static lmp_vec3 unit_of(lmp_vec3 v) {
+    const float square = vec_dot(v, v);
+    return vec_scale(v, 1 / sqrtf(square > 1e-20f ? square : 1e-20f));
 }
 
 /* A map of normals around n. */
-static lmp_vec3 bend(const point *p, lmp_vec3 n, const scene_texture_use *use, float scale) {
+static lmp_vec3 bend(point *p, lmp_vec3 n, const scene_texture_use *use, float scale) {
     float texel[4];
     if (use->texture < 0)
         return n;
@@ -72,12 +71,12 @@ static lmp_vec3 bend(const point *p, lmp_vec3 n, const scene_texture_use *use, f
     float sign = 0;
     for (int i = 0; i < 3; i++)
         sign += p->weights[i] * p->corners[i].tangent[3];
-    const lmp_vec3 t = vec_scale(tangent, 1 / sqrtf(fmaxf(vec_dot(tangent, tangent), 1e-20f)));
+    const lmp_vec3 t = unit_of(tangent);
     const lmp_vec3 b = vec_scale(vec_cross(n, t), sign);
     const lmp_vec3 bent =
         vec_add(vec_scale(t, (texel[0] * 2 - 1) * scale),
                 vec_add(vec_scale(b, (texel[1] * 2 - 1) * scale), vec_scale(n, texel[2] * 2 - 1)));
-    return vec_scale(bent, 1 / sqrtf(fmaxf(vec_dot(bent, bent), 1e-20f)));
+    return unit_of(bent);
 }
 
 static void set_vector(float *const planes[3], size_t at, lmp_vec3 v) {
@@ -96,7 +95,7 @@ static void set_color(float *const planes[3], size_t at, const float rgb[3]) {
 }
 
 /* Of a layered material; what is under a coat shines through it. */
-static void fill_layers(const point *p, lmp_vec3 view, size_t at, const render_surfaces *s,
+static void fill_layers(point *p, lmp_vec3 view, size_t at, const render_surfaces *s,
                         float emission[3]) {
     const scene_material *m = p->material;
     float texel[4], sheen[3];
@@ -132,7 +131,7 @@ static void tint(const point *p, float rgb[3]) {
     }
 }
 
-static void fill_base(const point *p, size_t at, const render_surfaces *s) {
+static void fill_base(point *p, size_t at, const render_surfaces *s) {
     const scene_material *m = p->material;
     float texel[4], base[3] = { m->base_color[0], m->base_color[1], m->base_color[2] };
     tint(p, base);
@@ -149,21 +148,45 @@ static void fill_base(const point *p, size_t at, const render_surfaces *s) {
     s->ambient[at] = unit(1 + m->occlusion * (texel[0] - 1));
 }
 
+/* Which sets of coordinates the material's maps read. */
+static void set_material(const scene *world, uint32_t number, cpu_triangle *t) {
+    t->number = number;
+    t->material = &world->materials[number];
+    t->read[0] = t->read[1] = false;
+    for (int i = 0; i < SCENE_MAPS; i++)
+        if (t->material->maps[i].texture >= 0)
+            t->read[t->material->maps[i].set] = true;
+    t->mapped = t->read[0] || t->read[1];
+}
+
+/* How the coordinates that are read change along the triangle's plane. */
+static void set_slopes(cpu_triangle *t) {
+    const float scale = 1 / vec_dot(t->face, t->face);
+    const lmp_vec3 second = vec_scale(vec_cross(t->edges[1], t->face), scale);
+    const lmp_vec3 third = vec_scale(vec_cross(t->face, t->edges[0]), scale);
+    for (int set = 0; set < 2; set++)
+        for (int i = 0; i < 2 && t->read[set]; i++) {
+            const float a = t->corners[0].uv[set][i];
+            t->slope[set][i] = vec_add(vec_scale(second, t->corners[1].uv[set][i] - a),
+                                       vec_scale(third, t->corners[2].uv[set][i] - a));
+        }
+}
+
 void cpu_triangle_find(const scene *world, const trace_hit *hit, cpu_triangle *t) {
     if (t->material && t->instance == hit->instance && t->triangle == hit->triangle)
         return;
+    const uint32_t number = scene_instance_material(world, hit->instance);
+    if (!t->material || t->number != number)
+        set_material(world, number, t);
     t->instance = hit->instance;
     t->triangle = hit->triangle;
-    t->number = scene_instance_material(world, hit->instance);
-    t->material = &world->materials[t->number];
-    t->mapped = false;
-    for (int i = 0; i < SCENE_MAPS; i++)
-        t->mapped = t->mapped || t->material->maps[i].texture >= 0;
     scene_triangle(world, hit->instance, hit->triangle, t->corners);
     const lmp_vec3 a = vec_load(t->corners[0].position);
     for (int i = 0; i < 2; i++)
         t->edges[i] = vec_sub(vec_load(t->corners[i + 1].position), a);
     t->face = vec_cross(t->edges[0], t->edges[1]);
+    if (t->mapped)
+        set_slopes(t);
 }
 
 /* Of a material without maps. */
@@ -185,7 +208,11 @@ static void fill_plain(const point *p, uint32_t number, size_t at, const render_
 
 void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const float direction[3],
                       const trace_hit *hit, size_t at, const render_surfaces *s) {
-    point p = { .textures = textures, .material = t->material, .corners = t->corners };
+    point p;
+    p.textures = textures;
+    p.material = t->material;
+    p.corners = t->corners;
+    p.covered = NULL;
     const scene_vertex *v = t->corners;
     p.weights[0] = (float)(1 - (double)hit->u - (double)hit->v);
     p.weights[1] = hit->u;
@@ -203,7 +230,7 @@ void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const
         return;
     }
     if (t->mapped)
-        set_footprint(&s->camera, direction, hit->distance, t->edges, t->face, &p);
+        set_footprint(&s->camera, t, d, hit->distance, &p);
     s->seen[at] = t->number;
     const lmp_vec3 n = bend(&p, p.smooth, &m->normal_map, m->normal_scale);
     set_vector(s->normal, at, vec_scale(n, p.side));

@@ -13,9 +13,10 @@
 typedef struct cpu_triangle {
     uint32_t instance, triangle, number; /* number: of the material */
     const scene_material *material;
-    bool mapped; /* it has maps */
+    bool mapped, read[2]; /* it has maps; which of the two sets of coordinates they read */
     scene_vertex corners[3];
     lmp_vec3 edges[2], face; /* from the first corner; across both */
+    lmp_vec3 slope[2][2];    /* of the coordinates that are read, along the plane */
 } cpu_triangle;
 
 /* That of a hit, unless it is there: neighbors often meet the same. */
