@@ -96,7 +96,7 @@ bool view_read_shot(const char *path, const view_shot_options *options, view_set
       .kind = CLI_INT,                                                                             \
       .target = &(shot).pixels_max,                                                                \
       .argument = "N",                                                                             \
-      .help = "refuse a screenshot of more pixels, each of which takes 97 to 440 bytes of memory", \
+      .help = "refuse a screenshot of more pixels, each of which takes 97 to 444 bytes of memory", \
       .minimum = 1,                                                                                \
       .maximum = IMAGE_PIXELS_MAX },                                                               \
     {                                                                                              \

@@ -3,6 +3,7 @@
 
 #include "app/memory/memory.h"
 #include "app/render/cpu/rays.h"
+#include "app/render/cpu/shared.h"
 #include "app/render/shade/shade.h"
 #include "app/timing/timing.h"
 
@@ -161,7 +162,7 @@ static tile_work *open_work(const drawing *d) {
     tile_work *w = calloc(1, sizeof *w);
     if (w && render_surfaces_create(RENDER_TILE, RENDER_TILE, layered, &w->surfaces) &&
         render_surfaces_create(RENDER_TILE, RENDER_TILE, layered, &w->first) &&
-        render_tile_create(RENDER_TILE_PIXELS, &w->tile))
+        render_surfaces_keep_smooth(&w->first) && render_tile_create(RENDER_TILE_PIXELS, &w->tile))
         return w;
     close_work(w);
     return NULL;
@@ -184,9 +185,11 @@ static void draw_tile(const drawing *d, const shade_job *job, const render_camer
         s->x = pixels->x;
         s->y = pixels->y;
         set_planes(d, &cameras[i], s);
-        cpu_rays_fill(&d->view, pixels, s);
+        cpu_rays_fill(&d->view, pixels, i > 0 ? &w->first : NULL, s);
         const double found = timing_now();
         shade_tile(job, s, i > 0 ? &before : NULL, pixels, &w->tile, rgba);
+        if (i == 0 && d->samples > 1)
+            cpu_shared_mark(s, rgba, pixels);
         for (int row = 0; row < pixels->height; row++)
             for (int column = 0; column < pixels->width; column++) {
                 const size_t at = 4 * tile_index(row, column);
@@ -269,14 +272,17 @@ static bool size_planes(const drawing *d, bool keep, cli_error *error) {
         (!keep || r->first_rgba || (r->first_rgba = memory_large(bytes))) &&
         ((!d->frame->shadow.run && !d->frame->keep_geometry) ||
          (render_surfaces_keep_hits(&r->surfaces) &&
-          (!keep || render_surfaces_keep_hits(&r->first))));
+          (!keep || render_surfaces_keep_hits(&r->first)))) &&
+        (!keep || render_surfaces_keep_smooth(&r->first));
     if (!ok)
         free_planes(r);
     return ok || cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
 }
 
-/* Where the camera is that of the planes, lights alone may have moved. */
-static void find_surfaces(const drawing *d, const render_camera *camera, render_surfaces *s) {
+/* Where the camera is that of the planes, lights alone may have moved. first: NULL, or the planes
+ * of the first sample. */
+static void find_surfaces(const drawing *d, const render_camera *camera,
+                          const render_surfaces *first, render_surfaces *s) {
     cpu_renderer *r = d->renderer;
     const int count = render_tile_count(s->width, s->height);
     const bool again = r->kept == s && memcmp(&r->view, camera, sizeof *camera) == 0;
@@ -284,13 +290,25 @@ static void find_surfaces(const drawing *d, const render_camera *camera, render_
 #pragma omp parallel for schedule(dynamic)
     for (int i = 0; i < count; i++) {
         const render_rectangle pixels = render_tile_at(s->width, s->height, i);
-        (again ? cpu_rays_light : cpu_rays_fill)(&d->view, &pixels, s);
+        if (again)
+            cpu_rays_light(&d->view, &pixels, s);
+        else
+            cpu_rays_fill(&d->view, &pixels, first, s);
     }
     if (d->frame->keep_geometry && s->hits) {
         r->kept = s;
         r->view = *camera;
     } else if (r->kept == s)
         r->kept = NULL;
+}
+
+static void mark_shared(const render_surfaces *first, const float *rgba) {
+    const int count = render_tile_count(first->width, first->height);
+#pragma omp parallel for schedule(dynamic)
+    for (int i = 0; i < count; i++) {
+        const render_rectangle pixels = render_tile_at(first->width, first->height, i);
+        cpu_shared_mark(first, rgba, &pixels);
+    }
 }
 
 /* Adds rgba to the sums; with `show` the image is what there is so far. */
@@ -320,7 +338,7 @@ static bool draw_sample(drawing *d, int index, bool keep, render_times *times, c
     if (!render_camera_set(d->view.scene, frame, index, &camera, error))
         return false;
     const double start = timing_now();
-    find_surfaces(d, &camera, s);
+    find_surfaces(d, &camera, keep && !kept ? &r->first : NULL, s);
     const double found = timing_now();
     shade_job *job = shade_begin(frame, s);
     const shade_sample before = { &r->first, r->first_rgba };
@@ -328,8 +346,10 @@ static bool draw_sample(drawing *d, int index, bool keep, render_times *times, c
     shade_end(job);
     if (!ok)
         return cli_fail(error, NULL, "out of memory");
-    if (kept) /* shadows change what they are given */
+    if (kept) { /* shadows change what they are given */
+        mark_shared(&r->first, rgba);
         memcpy(r->rgba, rgba, 4 * (size_t)frame->width * (size_t)frame->height * sizeof *r->rgba);
+    }
     const double shaded = timing_now();
     if (frame->shadow.run && !frame->shadow.run(frame->shadow.user, frame, s, r->rgba, error))
         return false;

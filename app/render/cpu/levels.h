@@ -4,7 +4,7 @@
 #ifndef LAMPION_CPU_LEVELS_H
 #define LAMPION_CPU_LEVELS_H
 
-#include "app/render/cpu/texture.h"
+#include "app/scene/scene.h"
 
 enum { CPU_LEVELS = 32, CPU_CURVE = 4096 };
 
@@ -20,12 +20,16 @@ typedef struct cpu_texture {
     uint32_t wrap_u, wrap_v;
 } cpu_texture;
 
-struct cpu_textures {
+typedef struct cpu_textures {
     cpu_texture *of;
     size_t count;
     unsigned char *memory;           /* of the levels below the first */
     float linear[2][256];            /* what a byte means: by itself, and of sRGB */
     unsigned char encode[CPU_CURVE]; /* a byte of sRGB at most, from the root of a linear value */
-};
+} cpu_textures;
+
+/* The scene must outlive it. NULL without memory. */
+cpu_textures *cpu_textures_create(const scene *scene);
+void cpu_textures_destroy(cpu_textures *textures);
 
 #endif

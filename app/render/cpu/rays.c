@@ -66,7 +66,7 @@ static void see_lights(const cpu_view *view, int x, int y, const trace_rays *ray
 }
 
 static void fill_square(const cpu_view *view, int x, int y, int width, int height,
-                        cpu_triangle *triangle, const render_surfaces *s) {
+                        const cpu_first *first, cpu_triangle *triangle, const render_surfaces *s) {
     trace_rays rays;
     trace_hit hits[TRACE_LANES];
     set_rays(s, x, y, width, height, &rays);
@@ -77,13 +77,15 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
         const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
         if (s->hits)
             s->hits[at] = hits[i];
+        if (s->smooth)
+            s->smooth[at] = 0;
         if (hits[i].instance == TRACE_NOTHING)
             s->seen[at] = RENDER_SEES_NOTHING;
         else {
             cpu_triangle_find(view->scene, &hits[i], triangle);
             const float direction[3] = { rays.direction[0][i], rays.direction[1][i],
                                          rays.direction[2][i] };
-            cpu_surface_fill(view->textures, triangle, direction, &hits[i], at, s);
+            cpu_surface_fill(view->textures, triangle, direction, &hits[i], first, at, s);
         }
     }
     see_lights(view, x, y, &rays, hits, s);
@@ -108,12 +110,14 @@ static void light_square(const cpu_view *view, int x, int y, int width, int heig
     see_lights(view, x, y, &rays, hits, s);
 }
 
-void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels, const render_surfaces *s) {
+void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels,
+                   const render_surfaces *first, const render_surfaces *s) {
+    const cpu_first before = { first, render_nearness_of(&s->camera) };
     cpu_triangle triangle = { .material = NULL };
     for (int j = 0; j < pixels->height; j += SIDE)
         for (int i = 0; i < pixels->width; i += SIDE)
             fill_square(view, pixels->x + i, pixels->y + j, pixels->width - i, pixels->height - j,
-                        &triangle, s);
+                        first ? &before : NULL, &triangle, s);
 }
 
 void cpu_rays_light(const cpu_view *view, const render_rectangle *pixels,

@@ -19,9 +19,10 @@ typedef struct cpu_view {
  * memory. */
 bool cpu_lights_create(const render_frame *frame, const trace_bvh *bvh, trace_spheres **lights);
 
-/* Fills the planes of a rectangle, from any thread: a sample of each pixel, by surfaces->camera. */
+/* Fills the planes of a rectangle, from any thread: a sample of each pixel, by surfaces->camera.
+ * first: NULL, or the first sample's planes of the same pixels (app/render/cpu/shared.h). */
 void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels,
-                   const render_surfaces *surfaces);
+                   const render_surfaces *first, const render_surfaces *surfaces);
 
 /* Finds the lights again that are seen before triangles: of planes that were filled for the same
  * camera and keep their hits. */

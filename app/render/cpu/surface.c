@@ -206,42 +206,59 @@ static void fill_plain(const point *p, uint32_t number, size_t at, const render_
     set_vector(s->emission, at, vec_load(emission));
 }
 
+/* Where the ray meets the triangle, before anything is asked of its material. */
+static void place(const cpu_triangle *t, lmp_vec3 d, const trace_hit *hit, point *p) {
+    const scene_vertex *v = t->corners;
+    p->weights[0] = (float)(1 - (double)hit->u - (double)hit->v);
+    p->weights[1] = hit->u;
+    p->weights[2] = hit->v;
+    const lmp_vec3 normal = mix(v[0].normal, v[1].normal, v[2].normal, p->weights);
+    p->side = vec_dot(t->face, d) > 0 ? -1.0f : 1.0f;
+    p->smooth = vec_dot(normal, normal) > 0 ? vec_normalize(normal, t->face)
+                                            : vec_normalize(t->face, vec(0, 1, 0));
+}
+
+static void fill(point *p, const cpu_triangle *t, lmp_vec3 d, float distance, bool layered,
+                 size_t at, const render_surfaces *s) {
+    const scene_material *m = p->material;
+    if (t->mapped)
+        set_footprint(&s->camera, t, d, distance, p);
+    s->seen[at] = t->number;
+    const lmp_vec3 n = bend(p, p->smooth, &m->normal_map, m->normal_scale);
+    set_vector(s->normal, at, vec_scale(n, p->side));
+    fill_base(p, at, s);
+    float texel[4], emission[3];
+    look_up(p, &m->emission_map, texel);
+    for (int c = 0; c < 3; c++)
+        emission[c] = m->emission[c] * texel[c];
+    if (m->flags & SCENE_UNLIT)
+        tint(p, emission);
+    if (layered)
+        fill_layers(p, vec_normalize(vec_scale(d, -1), d), at, s, emission);
+    set_vector(s->emission, at, vec_load(emission));
+}
+
 void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const float direction[3],
-                      const trace_hit *hit, size_t at, const render_surfaces *s) {
+                      const trace_hit *hit, const cpu_first *first, size_t at,
+                      const render_surfaces *s) {
+    const lmp_vec3 d = vec_load(direction);
+    const scene_vertex *v = t->corners;
+    const bool layered = s->layered && render_material_is_layered(s->materials, t->number);
     point p;
     p.textures = textures;
     p.material = t->material;
-    p.corners = t->corners;
+    p.corners = v;
     p.covered = NULL;
-    const scene_vertex *v = t->corners;
-    p.weights[0] = (float)(1 - (double)hit->u - (double)hit->v);
-    p.weights[1] = hit->u;
-    p.weights[2] = hit->v;
-    const lmp_vec3 d = vec_load(direction);
-    const lmp_vec3 normal = mix(v[0].normal, v[1].normal, v[2].normal, p.weights);
-    p.side = vec_dot(t->face, d) > 0 ? -1.0f : 1.0f;
-    p.smooth = vec_dot(normal, normal) > 0 ? vec_normalize(normal, t->face)
-                                           : vec_normalize(t->face, vec(0, 1, 0));
-    set_vector(s->position, at, mix(v[0].position, v[1].position, v[2].position, p.weights));
-    const scene_material *m = p.material;
-    const bool layered = s->layered && render_material_is_layered(s->materials, t->number);
+    place(t, d, hit, &p);
+    const lmp_vec3 position = mix(v[0].position, v[1].position, v[2].position, p.weights);
+    set_vector(s->position, at, position);
     if (!t->mapped && !layered) {
         fill_plain(&p, t->number, at, s);
         return;
     }
-    if (t->mapped)
-        set_footprint(&s->camera, t, d, hit->distance, &p);
-    s->seen[at] = t->number;
-    const lmp_vec3 n = bend(&p, p.smooth, &m->normal_map, m->normal_scale);
-    set_vector(s->normal, at, vec_scale(n, p.side));
-    fill_base(&p, at, s);
-    float texel[4], emission[3];
-    look_up(&p, &m->emission_map, texel);
-    for (int c = 0; c < 3; c++)
-        emission[c] = m->emission[c] * texel[c];
-    if (m->flags & SCENE_UNLIT)
-        tint(&p, emission);
-    if (layered)
-        fill_layers(&p, vec_normalize(vec_scale(d, -1), d), at, s, emission);
-    set_vector(s->emission, at, vec_load(emission));
+    const lmp_vec3 front = vec_scale(p.smooth, p.side);
+    if (s->smooth)
+        cpu_shared_keep(s, at, front);
+    if (!first || !cpu_shared_take(first, t->number, position, front, at, s))
+        fill(&p, t, d, hit->distance, layered, at, s);
 }

@@ -4,6 +4,7 @@
 #ifndef LAMPION_CPU_SURFACE_H
 #define LAMPION_CPU_SURFACE_H
 
+#include "app/render/cpu/shared.h"
 #include "app/render/cpu/texture.h"
 #include "app/render/frame/surfaces.h"
 #include "app/scene/instance.h"
@@ -22,9 +23,10 @@ typedef struct cpu_triangle {
 /* That of a hit, unless it is there: neighbors often meet the same. */
 void cpu_triangle_find(const scene *scene, const trace_hit *hit, cpu_triangle *triangle);
 
-/* Fills value `at` of the surfaces' planes with what the ray meets of the triangle. */
+/* Fills value `at` of the surfaces' planes with what the ray meets of the triangle, or with what an
+ * earlier sample has found there, if that may stand for it; `first` may be NULL. */
 void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *triangle,
-                      const float direction[3], const trace_hit *hit, size_t at,
-                      const render_surfaces *surfaces);
+                      const float direction[3], const trace_hit *hit, const cpu_first *first,
+                      size_t at, const render_surfaces *surfaces);
 
 #endif

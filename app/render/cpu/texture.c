@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/cpu/levels.h"
+#include "app/render/cpu/texture.h"
+
 #include "app/trace/wide.h"
 
 #include <math.h>

@@ -1,16 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* texture.h - the scene's textures for the CPU: levels of halved size, and look-ups that average
- * over what a pixel covers, as OpenGL has them with anisotropic filtering. */
+/* texture.h - look-ups in a scene's textures for the CPU, which average over what a pixel covers,
+ * as OpenGL has them with anisotropic filtering. */
 #ifndef LAMPION_CPU_TEXTURE_H
 #define LAMPION_CPU_TEXTURE_H
 
-#include "app/scene/scene.h"
-
-typedef struct cpu_textures cpu_textures;
-
-/* The scene must outlive it. NULL without memory. */
-cpu_textures *cpu_textures_create(const scene *scene);
-void cpu_textures_destroy(cpu_textures *textures);
+#include "app/render/cpu/levels.h"
 
 /* Where a pixel sees a surface's texture coordinates, of both sets, and how they change from it to
  * the pixels beside and below it. */

@@ -60,7 +60,21 @@ bool render_surfaces_keep_hits(render_surfaces *s) {
     return s->hits;
 }
 
+bool render_surfaces_keep_smooth(render_surfaces *s) {
+    if (!s->smooth)
+        s->smooth = memory_large((size_t)s->width * (size_t)s->height * sizeof *s->smooth);
+    return s->smooth;
+}
+
+render_nearness render_nearness_of(const render_camera *c) {
+    static const float steps = 4; /* widths of a pixel */
+    const float down2 = c->down[0] * c->down[0] + c->down[1] * c->down[1] + c->down[2] * c->down[2];
+    const float reach2 = steps * steps * down2 * c->step[1] * c->step[1];
+    return (render_nearness) { c->parallel ? reach2 : 0, c->parallel ? 0 : reach2 };
+}
+
 void render_surfaces_free(render_surfaces *s) {
+    free(s->smooth);
     free(s->hits);
     free(s->memory);
     memset(s, 0, sizeof *s);

@@ -31,14 +31,27 @@ struct render_surfaces {
     float *tint[3];                                /* a factor on F0 */
     float *sheen[3], *sheen_roughness;
     trace_hit *hits; /* triangles, also behind lights; NULL of a G-buffer, or if nobody asks */
+    uint32_t
+        *smooth; /* normals without their maps, as app/render/cpu/shared.h packs them; as hits */
 };
 
 /* Planes for a rectangle of so many pixels at 0, 0. False without memory. */
 bool render_surfaces_create(int width, int height, bool layered, render_surfaces *surfaces);
 void render_surfaces_free(render_surfaces *surfaces);
 
-/* Has whoever fills the planes keep the triangles that rays hit. False without memory. */
+/* Has whoever fills the planes keep the triangles that rays hit, or normals. False without memory.
+ */
 bool render_surfaces_keep_hits(render_surfaces *surfaces);
+bool render_surfaces_keep_smooth(render_surfaces *surfaces);
+
+/* How much the normals of what two samples of a pixel see may differ for it to count as one
+ * surface; and how much the positions: the square of it at distance 0, and what that grows by with
+ * the square of the distance. */
+#define RENDER_NORMAL_STEP (1 / 64.0f)
+typedef struct render_nearness {
+    float constant, spread;
+} render_nearness;
+render_nearness render_nearness_of(const render_camera *camera);
 
 /* The index of a pixel of the image in the planes. */
 static inline size_t render_surfaces_at(const render_surfaces *s, int x, int y) {

@@ -77,9 +77,8 @@ static void reflect(const shade_job *job, const render_surfaces *planes, const r
 
 /* --- what another sample has found ------------------------------------------------------------ */
 
-/* How much values of 0 … 1 may differ, and normals, and positions in widths of a pixel, for what is
- * lit to count as lit alike. */
-static const float value_step = 1 / 256.0f, normal_step = 1 / 64.0f, pixel_steps = 4;
+/* How much values of 0 … 1 may differ for what is lit to count as lit alike. */
+static const float value_step = 1 / 256.0f;
 
 static inline float difference2(float *const a[3], float *const b[3], size_t i) {
     const float x = a[0][i] - b[0][i], y = a[1][i] - b[1][i], z = a[2][i] - b[2][i];
@@ -98,20 +97,16 @@ static inline int are_near3(float *const a[3], float *const b[3], size_t i) {
  * nothing is known yet. Without branches, so that it is done to many at once. */
 static TRACE_WIDE void mark_alike(const render_surfaces *a, const render_surfaces *b, size_t first,
                                   int count, unsigned char *alike) {
-    const render_camera *c = &b->camera;
-    const float down2 = c->down[0] * c->down[0] + c->down[1] * c->down[1] + c->down[2] * c->down[2];
-    /* the square of what positions may differ by at distance 1, or at any */
-    const float reach2 = pixel_steps * pixel_steps * down2 * c->step[1] * c->step[1];
-    const float spread = c->parallel ? 0 : reach2, constant = c->parallel ? reach2 : 0;
-    const float x = c->eye[0], y = c->eye[1], z = c->eye[2];
+    const render_nearness near = render_nearness_of(&b->camera);
+    const float x = b->camera.eye[0], y = b->camera.eye[1], z = b->camera.eye[2];
 #pragma omp simd
     for (int k = 0; k < count; k++) {
         const size_t i = first + (size_t)k;
         const float dx = b->position[0][i] - x, dy = b->position[1][i] - y;
         const float dz = b->position[2][i] - z;
-        const float allowed2 = constant + spread * (dx * dx + dy * dy + dz * dz);
+        const float allowed2 = near.constant + near.spread * (dx * dx + dy * dy + dz * dz);
         int same = a->seen[i] == b->seen[i];
-        same &= difference2(a->normal, b->normal, i) <= normal_step * normal_step;
+        same &= difference2(a->normal, b->normal, i) <= RENDER_NORMAL_STEP * RENDER_NORMAL_STEP;
         same &= difference2(a->position, b->position, i) <= allowed2;
         same &= are_near3(a->base, b->base, i) & are_near3(a->emission, b->emission, i);
         same &= are_near(a->metallic, b->metallic, i) & are_near(a->roughness, b->roughness, i);
@@ -125,7 +120,8 @@ static bool have_alike_layers(const render_surfaces *a, const render_surfaces *b
            (are_near(a->coat, b->coat, i) && are_near(a->coat_roughness, b->coat_roughness, i) &&
             are_near(a->sheen_roughness, b->sheen_roughness, i) &&
             are_near3(a->sheen, b->sheen, i) && are_near3(a->tint, b->tint, i) &&
-            (difference2(a->coat_normal, b->coat_normal, i) <= normal_step * normal_step));
+            (difference2(a->coat_normal, b->coat_normal, i) <=
+             RENDER_NORMAL_STEP * RENDER_NORMAL_STEP));
 }
 
 /* --- tiles ------------------------------------------------------------------------------------ */
