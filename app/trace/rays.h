@@ -23,6 +23,7 @@ typedef struct trace_rays {
     float start[TRACE_LANES], length[TRACE_LANES]; /* in lengths of the direction */
     uint32_t pixel[TRACE_LANES]; /* of TRACE_IMAGE: a number of its own for each */
     uint32_t sample, samples;    /* of TRACE_IMAGE: which of how many it is */
+    bool together;               /* of TRACE_LIGHT: they go nearly the same way */
 } trace_rays;
 
 #define TRACE_NOTHING UINT32_MAX

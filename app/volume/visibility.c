@@ -62,6 +62,7 @@ static void send_rays(const volume_visibility *v, const shadow_source *source, l
         around[i] = golden - floorf(golden);
     }
     shadow_sources_draw(sources, &points, NULL, along, around, &samples);
+    rays.together = source->kind != SHADOW_AROUND;
     memcpy(rays.origin, points.of, sizeof rays.origin);
     memcpy(rays.direction, samples.direction.of, sizeof rays.direction);
     for (int i = 0; i < TRACE_LANES; i++) {

@@ -103,6 +103,7 @@ enum { ROWS = 96, COLUMNS = TRACE_LANES * 8, RAYS = ROWS * COLUMNS };
 static void aim(int row, int first, trace_rays *rays) {
     memset(rays, 0, sizeof *rays);
     rays->samples = 1;
+    rays->together = row % 2 == 1;
     for (int i = 0; i < TRACE_LANES; i++) {
         rays->origin[1][i] = 2;
         rays->origin[2][i] = 9;

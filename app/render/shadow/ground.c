@@ -32,7 +32,7 @@ static bool meets(const disk *ground, lmp_vec3 origin, lmp_vec3 direction, float
     return depth < far && vec_length(vec_sub(*at, ground->middle)) < ground->radius;
 }
 
-static void set_surface(render_tile *row, int x, lmp_vec3 at, lmp_vec3 view) {
+static void set_surface(render_tile *tile, int i, lmp_vec3 at, lmp_vec3 view) {
     static const lmp_material white = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
                                         .base_color = { 1, 1, 1 },
                                         .roughness = 1,
@@ -40,27 +40,29 @@ static void set_surface(render_tile *row, int x, lmp_vec3 at, lmp_vec3 view) {
     const float position[3] = { at.x, at.y, at.z }, normal[3] = { 0, 1, 0 };
     const float to_camera[3] = { view.x, view.y, view.z };
     for (int c = 0; c < 3; c++) {
-        row->position[c][x] = position[c];
-        row->normal[c][x] = normal[c];
-        row->view[c][x] = to_camera[c];
-        row->emission[c][x] = 0;
+        tile->position[c][i] = position[c];
+        tile->normal[c][i] = normal[c];
+        tile->view[c][i] = to_camera[c];
+        tile->emission[c][i] = 0;
     }
-    row->kind[x] = RENDER_SURFACE;
-    row->ambient[x] = 1;
-    row->material[x] = white;
+    tile->kind[i] = RENDER_SURFACE;
+    tile->ambient[i] = 1;
+    tile->material[i] = white;
 }
 
-void shadow_ground_lay(const scene *s, const render_camera *camera, int y, render_tile *row) {
+void shadow_ground_lay(const scene *s, const render_camera *camera, const render_rectangle *pixels,
+                       render_tile *tile) {
     const disk ground = disk_under(s);
-    for (int x = 0; x < camera->width; x++) {
+    for (int i = 0; i < pixels->width * pixels->height; i++) {
+        const int x = pixels->x + i % pixels->width, y = pixels->y + i / pixels->width;
         float o[3], d[3];
         lmp_vec3 at;
-        if (row->kind[x] != RENDER_NONE)
+        if (tile->kind[i] != RENDER_NONE)
             continue;
         render_camera_rays(camera, &x, &y, 1, (float *[3]) { &o[0], &o[1], &o[2] },
                            (float *[3]) { &d[0], &d[1], &d[2] });
         const lmp_vec3 direction = vec_load(d);
         if (meets(&ground, vec_load(o), direction, camera->far, &at))
-            set_surface(row, x, at, vec_scale(direction, -1 / vec_length(direction)));
+            set_surface(tile, i, at, vec_scale(direction, -1 / vec_length(direction)));
     }
 }

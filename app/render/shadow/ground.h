@@ -6,8 +6,9 @@
 
 #include "app/render/frame/surfaces.h"
 
-/* Makes white matte surfaces, which emit nothing, of the pixels of an image's row that see nothing
- * but the ground under the scene. */
-void shadow_ground_lay(const scene *scene, const render_camera *camera, int y, render_tile *row);
+/* Makes white matte surfaces, which emit nothing, of the pixels of a rectangle that see nothing but
+ * the ground under the scene. */
+void shadow_ground_lay(const scene *scene, const render_camera *camera,
+                       const render_rectangle *pixels, render_tile *tile);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/shadow/point.h"
 
+#include "app/scene/instance.h"
 #include "app/scene/vector.h"
 #include "app/trace/wide.h"
 
@@ -15,16 +16,15 @@ typedef struct triangle_lanes {
     shadow_lanes weights[3];
 } triangle_lanes;
 
-static void set_triangle(const shadow_view *view, const trace_hit *hit, int lane,
+static void set_triangle(const scene_vertex corners[3], const trace_hit *hit, int lane,
                          triangle_lanes *t) {
-    scene_vertex corners[3];
-    double weights[3];
-    trace_corners(view->scene, hit, corners, weights);
     for (int i = 0; i < 3; i++) {
         shadow_set_lane(&t->corners[i], lane, vec_load(corners[i].position));
         shadow_set_lane(&t->normals[i], lane, vec_load(corners[i].normal));
-        t->weights[i][lane] = (float)weights[i];
     }
+    t->weights[0][lane] = (float)(1 - (double)hit->u - (double)hit->v);
+    t->weights[1][lane] = hit->u;
+    t->weights[2][lane] = hit->v;
 }
 
 /* How far the smooth surface bulges past the triangle at a point of it. */
@@ -94,12 +94,20 @@ static void find_triangles(const shadow_view *view, const shadow_points *p,
     trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
 }
 
+/* Neighbors often see the same triangle. */
 static void find_origins(const shadow_view *view, const trace_hit hits[SHADOW_LANES],
                          shadow_points *p) {
     triangle_lanes triangles = { 0 };
-    for (int i = 0; i < SHADOW_LANES; i++)
-        if (p->lit[i] && hits[i].instance != TRACE_NOTHING)
-            set_triangle(view, &hits[i], i, &triangles);
+    scene_vertex corners[3];
+    const trace_hit *last = NULL;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        if (!p->lit[i] || hits[i].instance == TRACE_NOTHING)
+            continue;
+        if (!last || last->instance != hits[i].instance || last->triangle != hits[i].triangle)
+            scene_triangle(view->scene, hits[i].instance, hits[i].triangle, corners);
+        last = &hits[i];
+        set_triangle(corners, last, i, &triangles);
+    }
     leave_triangles(&triangles, view->lift, p);
     for (int i = 0; i < SHADOW_LANES; i++)
         if (p->lit[i] && hits[i].instance == TRACE_NOTHING)
@@ -200,7 +208,7 @@ void shadow_points_set(const shadow_view *view, const render_tile *row, const tr
     }
     trace_hit of[SHADOW_LANES];
     for (int i = 0; hits && i < count; i++)
-        of[i] = hits[pixels[i]];
+        of[i] = hits[i];
     if (!hits)
         find_triangles(view, p, of);
     find_origins(view, of, p);

@@ -52,13 +52,13 @@ typedef struct shadow_view {
     lmp_shade_settings settings;
 } shadow_view;
 
-/* How wide a pixel of the row is on its surface. */
-float shadow_footprint(const shadow_view *view, const render_tile *row, int x);
+/* How wide a pixel of the tile is on its surface. */
+float shadow_footprint(const shadow_view *view, const render_tile *tile, int pixel);
 
-/* The points of `count` pixels of the row, at most SHADOW_LANES, all of which show a surface; the
- * first of `pixels` stands for those that are missing. `hits` are the row's triangles, or NULL:
- * then rays along the views find them. */
-void shadow_points_set(const shadow_view *view, const render_tile *row, const trace_hit *hits,
+/* The points of `count` pixels of the tile, at most SHADOW_LANES, all of which show a surface; the
+ * first of `pixels` stands for those that are missing. `hits` are their triangles, or NULL: then
+ * rays along the views find them. */
+void shadow_points_set(const shadow_view *view, const render_tile *tile, const trace_hit *hits,
                        const int *pixels, int count, shadow_points *points);
 
 /* f_r cos(theta), red, green and blue, of light from a unit direction w at each of the points,

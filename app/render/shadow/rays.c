@@ -6,19 +6,8 @@
 #include "app/trace/wide.h"
 
 #include <float.h>
+#include <stdlib.h>
 #include <string.h>
-
-/* One ray a lane, and what it stands for. */
-typedef struct ray_shot {
-    trace_rays rays;
-    shadow_lanes size, mean; /* of the light, as in shadow_samples; of the value's colors */
-    shadow_vectors value;
-} ray_shot;
-
-/* Of the values of planes.h. */
-typedef struct shadow_sums {
-    shadow_lanes of[SHADOW_VALUES];
-} shadow_sums;
 
 /* The next numbers in 0 … 1 of every pixel. */
 static TRACE_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shadow_lanes *u) {
@@ -54,7 +43,7 @@ static void weigh_choice(const shadow_points *p, shadow_lanes *weights, const in
 
 /* What each ray brings; rays that would bring nothing are not sent. */
 static TRACE_WIDE void value_rays(const shadow_samples *samples, const shadow_vectors *k,
-                                  const float *weight, ray_shot *shot) {
+                                  const float *weight, shadow_shot *shot) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float scale = 1 / (weight[i] > 0 ? weight[i] : 1);
         const float r = samples->arrives.of[0][i] * k->of[0][i] * scale;
@@ -72,7 +61,7 @@ static TRACE_WIDE void value_rays(const shadow_samples *samples, const shadow_ve
 }
 
 static void aim(const shadow_job *job, const shadow_points *p, shadow_lanes *weights,
-                const int *chosen, shadow_lanes *u, ray_shot *shot) {
+                const int *chosen, shadow_lanes *u, shadow_shot *shot) {
     const shadow_source *sources[SHADOW_LANES];
     shadow_samples samples;
     shadow_vectors k;
@@ -87,6 +76,7 @@ static void aim(const shadow_job *job, const shadow_points *p, shadow_lanes *wei
             shadow_set_lane(&samples.arrives, i,
                             vec_scale(shadow_lane(&samples.arrives, i), p->ambient[i]));
     value_rays(&samples, &k, weight, shot);
+    memcpy(shot->source, chosen, sizeof shot->source);
     memcpy(shot->size, samples.size, sizeof shot->size);
     memcpy(shot->rays.origin, p->origin.of, sizeof shot->rays.origin);
     memcpy(shot->rays.direction, samples.direction.of, sizeof shot->rays.direction);
@@ -99,130 +89,185 @@ static float slope_of(float size, float length, float distance, float footprint)
 }
 
 /* Adds what the rays have found to the pixels' sums. */
-static TRACE_WIDE void add_shot(const ray_shot *shot, const float *distances,
-                                const shadow_points *points, shadow_sums *sums) {
+static TRACE_WIDE void add_shot(const shadow_shot *shot, shadow_group *group) {
+    shadow_lanes *sums = group->sums;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float length = shot->rays.length[i], mean = shot->mean[i];
-        const bool hidden = distances[i] < length;
+        const bool hidden = shot->distance[i] < length;
         const float slope =
-            slope_of(shot->size[i], length, hidden ? distances[i] : 0, points->footprint[i]);
+            slope_of(shot->size[i], length, hidden ? shot->distance[i] : 0, group->footprint[i]);
         for (int c = 0; c < 3; c++) {
             const float value = shot->value.of[c][i];
-            sums->of[SHADOW_ALL + c][i] += value;
-            sums->of[SHADOW_UNHIDDEN + c][i] += hidden ? 0 : value;
+            sums[SHADOW_ALL + c][i] += value;
+            sums[SHADOW_UNHIDDEN + c][i] += hidden ? 0 : value;
         }
-        sums->of[SHADOW_WEIGHT][i] += mean;
-        sums->of[SHADOW_HIDDEN][i] += hidden ? mean : 0;
-        sums->of[SHADOW_SLOPE][i] += hidden ? mean * slope : 0;
+        sums[SHADOW_WEIGHT][i] += mean;
+        sums[SHADOW_HIDDEN][i] += hidden ? mean : 0;
+        sums[SHADOW_SLOPE][i] += hidden ? mean * slope : 0;
     }
 }
 
-/* Sends what has a length, and returns how many those are. */
-static size_t send(const shadow_job *job, const ray_shot *shot, shadow_lanes distances) {
-    trace_hit hits[SHADOW_LANES];
-    size_t count = 0;
-    trace_nearest_n(job->view.bvh, TRACE_LIGHT, &shot->rays, hits);
-    for (int i = 0; i < SHADOW_LANES; i++) {
-        distances[i] = hits[i].distance;
-        count += shot->rays.length[i] >= 0;
-    }
+/* Sends the batch, and begins another. */
+static size_t send_batch(const shadow_job *job, shadow_work *work) {
+    const size_t count = shadow_batch_send(&work->batch, job->view.bvh);
+    for (int i = 0; i < work->batch.count; i++)
+        add_shot(&work->batch.shots[i], &work->groups[work->group_of[i]]);
+    work->batch.count = 0;
     return count;
 }
 
-static size_t send_rays(const shadow_job *job, const shadow_points *points, const int *pixels,
-                        int y, shadow_lanes *weights, shadow_sums *sums) {
+/* Adds the rays of a group's points to the batch; where they do not fit, what is there is sent. */
+static size_t add_rays(const shadow_job *job, const shadow_points *points, int number,
+                       shadow_work *work) {
+    const shadow_group *group = &work->groups[number];
     shadow_sequence sequences[SHADOW_LANES];
-    size_t count = 0;
-    shadow_sources_weigh(job->sources, job->source_count, points, weights);
+    size_t sent = 0;
+    shadow_sources_weigh(job->sources, job->source_count, points, work->weights);
     for (int i = 0; i < SHADOW_LANES; i++)
-        sequences[i] =
-            shadow_sequence_of((uint32_t)pixels[i], (uint32_t)y, (uint32_t)job->rays, job->seed);
+        sequences[i] = shadow_sequence_of(group->x[i], group->y[i], (uint32_t)job->rays, job->seed);
     for (int ray = 0; ray < job->rays; ray++) {
         shadow_lanes u[3];
         int chosen[SHADOW_LANES];
-        shadow_lanes distances;
-        ray_shot shot;
+        if (work->batch.count == SHADOW_SHOTS)
+            sent += send_batch(job, work);
         draw(sequences, (uint32_t)ray, u);
-        choose(job, weights, u[0], chosen);
-        aim(job, points, weights, chosen, u, &shot);
-        count += send(job, &shot, distances);
-        add_shot(&shot, distances, points, sums);
+        choose(job, work->weights, u[0], chosen);
+        work->group_of[work->batch.count] = number;
+        aim(job, points, work->weights, chosen, u, &work->batch.shots[work->batch.count++]);
     }
-    return count;
+    return sent;
 }
 
-/* --- a row ------------------------------------------------------------------------------------ */
+/* --- pixels ----------------------------------------------------------------------------------- */
 
-/* Whether the filter would mix two pixels of a row. */
-static bool alike(const render_tile *row, int a, int b, float footprint) {
+/* Whether the filter would mix two pixels of a tile. */
+static bool alike(const render_tile *tile, int a, int b, float footprint) {
     float off = 0, facing = 0;
-    if (row->kind[b] != RENDER_SURFACE)
+    if (tile->kind[b] != RENDER_SURFACE)
         return false;
     for (int c = 0; c < 3; c++) {
-        off += row->normal[c][a] * (row->position[c][b] - row->position[c][a]);
-        facing += row->normal[c][a] * row->normal[c][b];
+        off += tile->normal[c][a] * (tile->position[c][b] - tile->position[c][a]);
+        facing += tile->normal[c][a] * tile->normal[c][b];
     }
     return fabsf(off) < 0.5f * footprint && facing > 0.9f;
 }
 
-/* Whether it takes what the pixels find that send rays, which are others in the next row and in the
- * next sample: of two, as the colors of a checkerboard; of four, in every row between those of the
- * row before. */
-static bool borrows(const shadow_job *job, const render_tile *row, int x, int y,
-                    const shadow_planes *planes) {
-    const float footprint = planes->footprint[(size_t)y * (size_t)planes->width + (size_t)x];
+/* Whether pixel `at` takes what those pixels of its row of the tile find that send rays, which are
+ * others in the next row and in the next sample: of two, as the colors of a checkerboard; of four,
+ * in every row between those of the row before. */
+static bool borrows(const shadow_job *job, const render_tile *tile, const render_rectangle *pixels,
+                    int at, const shadow_planes *planes) {
+    const int i = at % pixels->width, x = pixels->x + i, y = pixels->y + at / pixels->width;
     const int shift = job->spacing / 2;
-    const int after = (x + shift * y + job->sample) % job->spacing;
-    const int left = x - after, right = left + job->spacing;
-    return after != 0 && ((left >= 0 && alike(row, x, left, footprint)) ||
-                          (right < planes->width && alike(row, x, right, footprint)));
+    const int after = (x + shift * y + job->sample) % job->spacing, before = job->spacing - after;
+    const float footprint = planes->footprint[(size_t)y * (size_t)planes->width + (size_t)x];
+    return after != 0 && ((i >= after && alike(tile, at, at - after, footprint)) ||
+                          (i + before < pixels->width && alike(tile, at, at + before, footprint)));
 }
 
 /* Pixels without rays. What is no surface is 0, and so without weight for the filter. */
-static void store_row(const shadow_job *job, const render_tile *row, int y, shadow_planes *planes) {
-    const size_t first = (size_t)y * (size_t)planes->width;
-    for (int k = 0; k < SHADOW_VALUES; k++)
-        memset(planes->values[k] + first, 0, (size_t)planes->width * sizeof *planes->values[k]);
-    for (int x = 0; x < planes->width; x++) {
-        const size_t pixel = first + (size_t)x;
-        const bool lit = row->kind[x] == RENDER_SURFACE;
-        for (int c = 0; c < 3; c++) {
-            planes->position[c][pixel] = lit ? row->position[c][x] : 0;
-            planes->normal[c][pixel] = lit ? row->normal[c][x] : 0;
-        }
-        planes->footprint[pixel] = lit ? shadow_footprint(&job->view, row, x) : 1;
-    }
-}
-
-static void store(const shadow_points *points, const shadow_sums *sums, size_t first,
-                  const int *pixels, shadow_planes *planes) {
-    for (int i = 0; i < SHADOW_LANES; i++) {
-        const size_t pixel = first + (size_t)pixels[i];
-        if (!points->lit[i])
-            continue;
-        for (int c = 0; c < 3; c++)
-            planes->normal[c][pixel] = points->smooth.of[c][i];
+static void store_tile(const shadow_job *job, const render_tile *tile,
+                       const render_rectangle *pixels, shadow_planes *planes) {
+    for (int j = 0; j < pixels->height; j++) {
+        const size_t first = (size_t)(pixels->y + j) * (size_t)planes->width + (size_t)pixels->x;
         for (int k = 0; k < SHADOW_VALUES; k++)
-            planes->values[k][pixel] = sums->of[k][i];
+            memset(planes->values[k] + first, 0, (size_t)pixels->width * sizeof *planes->values[k]);
+        for (int i = 0; i < pixels->width; i++) {
+            const size_t pixel = first + (size_t)i;
+            const int at = j * pixels->width + i;
+            const bool lit = tile->kind[at] == RENDER_SURFACE;
+            for (int c = 0; c < 3; c++) {
+                planes->position[c][pixel] = lit ? tile->position[c][at] : 0;
+                planes->normal[c][pixel] = lit ? tile->normal[c][at] : 0;
+            }
+            planes->footprint[pixel] = lit ? shadow_footprint(&job->view, tile, at) : 1;
+        }
     }
 }
 
-size_t shadow_rays_row(const shadow_job *job, const render_tile *row, int y, shadow_lanes *weights,
-                       shadow_planes *planes) {
-    const size_t first = (size_t)y * (size_t)planes->width;
-    const trace_hit *hits = job->hits ? job->hits + first : NULL;
+static void store(const shadow_group *group, shadow_planes *planes) {
+    for (int i = 0; i < group->count; i++) {
+        const size_t pixel = (size_t)group->y[i] * (size_t)planes->width + group->x[i];
+        for (int c = 0; c < 3; c++)
+            planes->normal[c][pixel] = group->smooth.of[c][i];
+        for (int k = 0; k < SHADOW_VALUES; k++)
+            planes->values[k][pixel] = group->sums[k][i];
+    }
+}
+
+/* Takes the next pixels that send rays, from number `at` on: along a Morton curve, so that they are
+ * close to each other. Returns the number after them; `indices` are theirs in the tile. */
+static uint32_t pick(const shadow_job *job, const render_tile *tile, const render_rectangle *pixels,
+                     uint32_t at, const shadow_planes *planes, int indices[SHADOW_LANES],
+                     shadow_group *group) {
+    memset(group, 0, sizeof *group);
+    for (; at < RENDER_TILE_PIXELS && group->count < SHADOW_LANES; at++) {
+        const int i = (int)shadow_column(at), j = (int)shadow_column(at >> 1);
+        const int index = j * pixels->width + i;
+        if (i >= pixels->width || j >= pixels->height || tile->kind[index] != RENDER_SURFACE ||
+            borrows(job, tile, pixels, index, planes))
+            continue;
+        indices[group->count] = index;
+        group->x[group->count] = (uint32_t)(pixels->x + i);
+        group->y[group->count++] = (uint32_t)(pixels->y + j);
+    }
+    return at;
+}
+
+/* Has a group send rays. */
+static size_t add_group(const shadow_job *job, const int indices[SHADOW_LANES], int width,
+                        int number, shadow_work *work) {
+    shadow_group *group = &work->groups[number];
+    trace_hit hits[SHADOW_LANES];
+    shadow_points points;
+    for (int i = 0; job->hits && i < group->count; i++)
+        hits[i] = job->hits[(size_t)group->y[i] * (size_t)width + group->x[i]];
+    shadow_points_set(&job->view, &work->tile, job->hits ? hits : NULL, indices, group->count,
+                      &points);
+    memcpy(group->footprint, points.footprint, sizeof group->footprint);
+    group->smooth = points.smooth;
+    return add_rays(job, &points, number, work);
+}
+
+size_t shadow_rays_tile(const shadow_job *job, const render_rectangle *pixels, shadow_work *work,
+                        shadow_planes *planes) {
+    const render_tile *tile = &work->tile;
+    int indices[SHADOW_LANES];
     size_t sent = 0;
-    store_row(job, row, y, planes);
-    for (int x = 0; job->source_count > 0 && x < planes->width;) {
-        int pixels[SHADOW_LANES] = { 0 }, count = 0;
-        for (; x < planes->width && count < SHADOW_LANES; x++)
-            if (row->kind[x] == RENDER_SURFACE && !borrows(job, row, x, y, planes))
-                pixels[count++] = x;
-        shadow_sums sums = { { { 0 } } };
-        shadow_points points;
-        shadow_points_set(&job->view, row, hits, pixels, count, &points);
-        sent += send_rays(job, &points, pixels, y, weights, &sums);
-        store(&points, &sums, first, pixels, planes);
+    store_tile(job, tile, pixels, planes);
+    for (uint32_t at = 0; job->source_count > 0 && at < RENDER_TILE_PIXELS;) {
+        int count = 0;
+        do {
+            at = pick(job, tile, pixels, at, planes, indices, &work->groups[count]);
+            if (work->groups[count].count > 0)
+                sent += add_group(job, indices, planes->width, count++, work);
+        } while (at < RENDER_TILE_PIXELS && (count + 1) * job->rays <= SHADOW_SHOTS);
+        sent += send_batch(job, work);
+        for (int i = 0; i < count; i++)
+            store(&work->groups[i], planes);
     }
     return sent;
+}
+
+/* --- what a thread works with ----------------------------------------------------------------- */
+
+shadow_work *shadow_work_create(const shadow_job *job) {
+    const size_t count = job->source_count;
+    const bool around = count > 0 && job->sources[count - 1].kind == SHADOW_AROUND;
+    shadow_work *work = calloc(1, sizeof *work);
+    if (work)
+        work->batch.around = around ? (int)count - 1 : -1;
+    if (work && (work->weights = malloc((count + 1) * sizeof *work->weights)) &&
+        render_tile_create(RENDER_TILE_PIXELS, &work->tile))
+        return work;
+    shadow_work_destroy(work);
+    return NULL;
+}
+
+void shadow_work_destroy(shadow_work *work) {
+    if (!work)
+        return;
+    render_tile_free(&work->tile);
+    free(work->weights);
+    free(work);
 }

@@ -3,6 +3,7 @@
 #ifndef LAMPION_SHADOW_RAYS_H
 #define LAMPION_SHADOW_RAYS_H
 
+#include "app/render/shadow/batch.h"
 #include "app/render/shadow/planes.h"
 #include "app/render/shadow/source.h"
 
@@ -17,9 +18,31 @@ typedef struct shadow_job {
     uint32_t seed;
 } shadow_job;
 
-/* Fills row y of the planes; `weights` is memory for as many as there are sources. Returns how many
- * rays toward lights were sent. */
-size_t shadow_rays_row(const shadow_job *job, const render_tile *row, int y, shadow_lanes *weights,
-                       shadow_planes *planes);
+/* Pixels whose rays are in a batch. */
+typedef struct shadow_group {
+    uint32_t x[SHADOW_LANES], y[SHADOW_LANES];
+    int count;
+    shadow_lanes footprint;
+    shadow_vectors smooth;
+    shadow_lanes sums[SHADOW_VALUES]; /* of planes.h */
+} shadow_group;
+
+/* What a thread works with. */
+typedef struct shadow_work {
+    shadow_lanes *weights; /* of all sources */
+    render_tile tile;
+    shadow_batch batch;
+    int group_of[SHADOW_SHOTS];
+    shadow_group groups[SHADOW_SHOTS];
+} shadow_work;
+
+/* NULL without memory. */
+shadow_work *shadow_work_create(const shadow_job *job);
+void shadow_work_destroy(shadow_work *work);
+
+/* Fills the planes of a rectangle, which work->tile holds, of at most RENDER_TILE pixels a side.
+ * Returns how many rays toward lights were sent. */
+size_t shadow_rays_tile(const shadow_job *job, const render_rectangle *pixels, shadow_work *work,
+                        shadow_planes *planes);
 
 #endif

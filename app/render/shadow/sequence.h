@@ -56,6 +56,14 @@ static inline uint32_t shadow_spread(uint32_t x) {
     return (x | x << 1) & 0x55555555u;
 }
 
+/* The even bits of a number below 1024 side by side: x of a number along the curve. */
+static inline uint32_t shadow_column(uint32_t n) {
+    uint32_t x = n & 0x155;
+    x = (x | x >> 1) & 0x133;
+    x = (x | x >> 2) & 0x10f;
+    return (x | x >> 4) & 0x1f;
+}
+
 /* Where the rays of a pixel begin in the sequence, and which scrambling of it is theirs: one for
  * each square of SHADOW_TILE pixels. */
 enum { SHADOW_TILE = 1024 };

@@ -112,31 +112,31 @@ static shadow_job job_of(shadow *s, const render_frame *frame, const render_surf
     return job;
 }
 
-/* A row of pixels with the ground beneath. */
-static void fill_row(const shadow *s, const render_surfaces *surfaces, int y, render_tile *row) {
-    render_surfaces_tile(surfaces, 0, y, surfaces->width, 1, row);
+/* Pixels with the ground beneath. */
+static void fill_tile(const shadow *s, const render_surfaces *surfaces,
+                      const render_rectangle *pixels, render_tile *tile) {
+    render_surfaces_tile(surfaces, pixels->x, pixels->y, pixels->width, pixels->height, tile);
     if (s->ground)
-        shadow_ground_lay(s->scene, &surfaces->camera, y, row);
+        shadow_ground_lay(s->scene, &surfaces->camera, pixels, tile);
 }
 
 static bool send_rays(shadow *s, const shadow_job *job, const render_surfaces *surfaces) {
+    const int width = s->planes.width, height = s->planes.height;
+    const int count = render_tile_count(width, height);
     size_t rays = 0;
     bool ok = true;
 #pragma omp parallel reduction(&& : ok) reduction(+ : rays)
     {
-        render_tile row;
-        shadow_lanes *weights = malloc((job->source_count + 1) * sizeof *weights);
-        const bool mine = render_tile_create(s->planes.width, &row);
-        ok = mine && weights;
-#pragma omp for schedule(dynamic, 4)
-        for (int y = 0; y < s->planes.height; y++)
-            if (ok) {
-                fill_row(s, surfaces, y, &row);
-                rays += shadow_rays_row(job, &row, y, weights, &s->planes);
+        shadow_work *work = shadow_work_create(job);
+        ok = work != NULL;
+#pragma omp for schedule(dynamic)
+        for (int i = 0; i < count; i++)
+            if (work) {
+                const render_rectangle pixels = render_tile_at(width, height, i);
+                fill_tile(s, surfaces, &pixels, &work->tile);
+                rays += shadow_rays_tile(job, &pixels, work, &s->planes);
             }
-        if (mine)
-            render_tile_free(&row);
-        free(weights);
+        shadow_work_destroy(work);
     }
     s->statistics.rays_a_pixel = job->rays;
     s->statistics.rays = rays;
@@ -205,7 +205,8 @@ static bool reuse(const shadow *s, const render_surfaces *surfaces, float *rgba)
 #pragma omp for schedule(dynamic, 4)
         for (int y = 0; y < s->planes.height; y++)
             if (mine) {
-                fill_row(s, surfaces, y, &row);
+                const render_rectangle pixels = { 0, y, s->planes.width, 1 };
+                fill_tile(s, surfaces, &pixels, &row);
                 shadow_reuse_row(&s->planes, &row, y, rgba);
             }
         if (mine)
