@@ -163,44 +163,55 @@ bool cpu_textures_alike(const cpu_textures *textures, const scene_texture_use *a
 
 /* --- reading ---------------------------------------------------------------------------------- */
 
-static inline void add_colors(const float color[256], const unsigned char *level,
+static inline void add_colors(const float linear[2][256], const unsigned char *level,
                               const uint32_t *texels, const float *weights, const cpu_cover *c,
-                              float sum[4]) {
+                              float *restrict sum) {
+    const float *color = linear[1], *alpha = linear[0];
+    float r = 0, g = 0, b = 0, a = 0;
     for (int i = 0; i < c->taps; i++)
         for (int k = 0; k < 4; k++) {
             const unsigned char *texel = level + 4 * (size_t)texels[k * c->lanes + i];
             const float weight = weights[k * c->lanes + i];
-            sum[0] += weight * color[texel[0]];
-            sum[1] += weight * color[texel[1]];
-            sum[2] += weight * color[texel[2]];
-            sum[3] += weight * (float)texel[3];
+            r += weight * color[texel[0]];
+            g += weight * color[texel[1]];
+            b += weight * color[texel[2]];
+            a += weight * alpha[texel[3]];
         }
+    sum[0] += r;
+    sum[1] += g;
+    sum[2] += b;
+    sum[3] += a;
 }
 
+/* Four sums by name, whose channels the compiler adds as one vector. */
 static inline void add_numbers(const unsigned char *level, const uint32_t *texels,
-                               const float *weights, const cpu_cover *c, float sum[4]) {
+                               const float *weights, const cpu_cover *c, float *restrict sum) {
+    float r = 0, g = 0, b = 0, a = 0;
     for (int i = 0; i < c->taps; i++)
         for (int k = 0; k < 4; k++) {
             const unsigned char *texel = level + 4 * (size_t)texels[k * c->lanes + i];
+            const int bytes[4] = { texel[0], texel[1], texel[2], texel[3] };
             const float weight = weights[k * c->lanes + i];
-            for (int n = 0; n < 4; n++)
-                sum[n] += weight * (float)texel[n];
+            r += weight * (float)bytes[0];
+            g += weight * (float)bytes[1];
+            b += weight * (float)bytes[2];
+            a += weight * (float)bytes[3];
         }
+    sum[0] += r * (1 / 255.0f);
+    sum[1] += g * (1 / 255.0f);
+    sum[2] += b * (1 / 255.0f);
+    sum[3] += a * (1 / 255.0f);
 }
 
 TRACE_WIDE void cpu_texture_read(const cpu_textures *textures, const scene_texture_use *use,
                                  const cpu_cover *c, float rgba[4]) {
     const cpu_texture *t = &textures->of[use->texture];
-    const float scale = t->srgb ? 1 : 1 / 255.0f;
-    float sum[4] = { 0 };
+    memset(rgba, 0, 4 * sizeof *rgba);
     for (int l = 0; l < c->levels; l++) {
         const unsigned char *level = t->levels[c->finer + l].texels;
         if (t->srgb)
-            add_colors(textures->linear[1], level, c->texels[l], c->weights[l], c, sum);
+            add_colors(textures->linear, level, c->texels[l], c->weights[l], c, rgba);
         else
-            add_numbers(level, c->texels[l], c->weights[l], c, sum);
+            add_numbers(level, c->texels[l], c->weights[l], c, rgba);
     }
-    for (int n = 0; n < 3; n++)
-        rgba[n] = sum[n] * scale;
-    rgba[3] = sum[3] * (1 / 255.0f);
 }
