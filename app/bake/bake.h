@@ -26,7 +26,7 @@ lmp_result bake(const bake_recipe *recipe, void **object);
 
 /* Adds to a key how a thing is made: by the library's version, and the numbers that were asked for
  * (without padding between them). BAKE_EPOCH rises when the same ones give other bytes. */
-#define BAKE_EPOCH 6
+#define BAKE_EPOCH 7
 void bake_add_settings(file_hash *key, const void *settings, size_t size);
 
 /* The program as the library's host: all cores, and a progress bar whose text is *what. */

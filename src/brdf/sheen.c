@@ -32,14 +32,18 @@ static double held_cosine(double cosine) {
     return fmax(cosine, 1e-4);
 }
 
+/* The distribution of half vectors where their sine is 1. */
+static double normal_scale(double alpha) {
+    return (2 + 1 / alpha) / (2 * BRDF_PI);
+}
+
 /* f_r of white fibers as the specification has it, times a cosine a.z, with which it is finite at
  * a's horizon; `masked` is the sum of the masking of both. */
 static double fibers_cosine(double alpha, double masked, const double a[3], const double b[3]) {
     double h[3];
     lmp_brdf_half(a, b, h);
     const double square = fmax(1 - h[2] * h[2], 0);
-    const double distribution = (2 + 1 / alpha) * pow(square, 0.5 / alpha) / (2 * BRDF_PI);
-    return distribution / ((1 + masked) * 4 * held_cosine(b[2]));
+    return normal_scale(alpha) * pow(square, 0.5 / alpha) / ((1 + masked) * 4 * held_cosine(b[2]));
 }
 
 /* --- what they reflect ------------------------------------------------------------------------ */
@@ -57,51 +61,83 @@ static double gain_of(const brdf_sheen *sheen, double a, double b) {
     return fmax(fmax(between_nodes(sheen->gain, a), between_nodes(sheen->gain, b)), 1);
 }
 
-/* What white fibers reflect of a uniform sky, divided by their gain. Light on the far side of the
- * view and on its own counts alike; nodes are dense toward the horizon, where they shine. */
-static double fibers_albedo(const brdf_sheen *sheen, double cosine) {
-    enum { RINGS = 48 };
-    const double view[3] = { sqrt(1 - cosine * cosine), 0, cosine };
-    const double masked = masking(held_cosine(cosine), sheen->alpha);
-    double node[RINGS], weight[RINGS], sum = 0;
-    for (int i = 0; i < RINGS; i++)
-        lmp_gauss_legendre(RINGS, i, &node[i], &weight[i]);
+/* A uniform sky over fibers, by Gauss's nodes in the root of the light's cosine and in the root of
+ * its azimuth from the view: dense toward the horizon, where they shine. Light on the far side of
+ * the view and on its own counts alike. */
+enum { RINGS = 48 };
+typedef struct sky {
+    double z[RINGS], radius[RINGS], masked[RINGS], weight[RINGS];
+    double azimuth_cosine[RINGS], azimuth_weight[RINGS];
+} sky;
+
+static void sky_prepare(sky *over, double alpha) {
     for (int i = 0; i < RINGS; i++) {
-        const double up = (1 + node[i]) / 2, z = up * up, s = sqrt(1 - z * z);
-        const double both = masked + masking(held_cosine(z), sheen->alpha);
-        double ring = 0;
-        for (int k = 0; k < RINGS; k++) {
-            const double across = (1 + node[k]) / 2, phi = BRDF_PI * across * across;
-            const double light[3] = { s * cos(phi), s * sin(phi), z };
-            ring += weight[k] * across * fibers_cosine(sheen->alpha, both, light, view);
-        }
-        sum += weight[i] * up * ring * 2 * BRDF_PI / gain_of(sheen, z, cosine);
+        double node, weight;
+        lmp_gauss_legendre(RINGS, i, &node, &weight);
+        const double root = (1 + node) / 2, z = root * root;
+        over->z[i] = z;
+        over->radius[i] = sqrt(1 - z * z);
+        over->masked[i] = masking(held_cosine(z), alpha);
+        over->weight[i] = weight * root * 2 * BRDF_PI;
+        over->azimuth_cosine[i] = cos(BRDF_PI * z);
+        over->azimuth_weight[i] = weight * root;
     }
-    return sum;
 }
 
-static void fill_albedos(brdf_sheen *sheen) {
+/* What fibers that are not divided by their gain reflect of each ring. The half vector's height
+ * comes from the cosine between light and view. */
+static void reflect_rings(const sky *over, double alpha, double cosine, double rings[RINGS]) {
+    const double side = sqrt(1 - cosine * cosine), power = 0.5 / alpha;
+    const double masked = masking(held_cosine(cosine), alpha);
+    for (int i = 0; i < RINGS; i++) {
+        const double up = over->z[i] + cosine, up2 = up * up;
+        const double along = 1 + over->z[i] * cosine, across = over->radius[i] * side;
+        double sum = 0;
+        for (int k = 0; k < RINGS; k++) {
+            const double length2 = 2 * (along + across * over->azimuth_cosine[k]);
+            const double square = length2 > up2 ? 1 - up2 / length2 : 0;
+            sum += over->azimuth_weight[k] * pow(square, power);
+        }
+        rings[i] = over->weight[i] * sum * normal_scale(alpha) /
+                   ((1 + masked + over->masked[i]) * 4 * held_cosine(cosine));
+    }
+}
+
+/* The albedos of a sheen whose gain is known. */
+static void fill_albedos(const sky *over, double (*rings)[RINGS], brdf_sheen *sheen) {
     for (int i = 0; i < NODES; i++) {
         const double root = (double)i / (NODES - 1);
-        sheen->albedo[i] = fibers_albedo(sheen, root * root);
+        sheen->albedo[i] = 0;
+        for (int k = 0; k < RINGS; k++)
+            sheen->albedo[i] += rings[i][k] / gain_of(sheen, over->z[k], root * root);
     }
 }
 
 /* Smooth fibers reflect up to three times what arrives, by the specification's masking. Divided by
  * the larger of the albedos toward a and b, where it exceeds 1, they reflect no more than arrives,
  * and remain reciprocal. */
-static void limit_gain(brdf_sheen *sheen) {
+static lmp_result limit_gain(const lmp_host *host, brdf_sheen *sheen) {
     const double between = 1.003; /* that of what lies between two nodes is larger by less */
-    double largest = 0;
+    double largest = 0, (*rings)[RINGS] = lmp_allocate(host, NODES * sizeof *rings);
+    sky over;
+    if (!rings)
+        return LMP_ERROR_MEMORY;
+    sky_prepare(&over, sheen->alpha);
+    for (int i = 0; i < NODES; i++) {
+        const double root = (double)i / (NODES - 1);
+        reflect_rings(&over, sheen->alpha, root * root, rings[i]);
+    }
     memset(sheen->gain, 0, sizeof sheen->gain);
-    fill_albedos(sheen);
+    fill_albedos(&over, rings, sheen);
     for (int i = 0; i < NODES; i++)
         largest = fmax(largest, between * sheen->albedo[i]);
-    if (!(largest > 1))
-        return;
-    for (int i = 0; i < NODES; i++)
-        sheen->gain[i] = between * sheen->albedo[i];
-    fill_albedos(sheen);
+    if (largest > 1) {
+        for (int i = 0; i < NODES; i++)
+            sheen->gain[i] = between * sheen->albedo[i];
+        fill_albedos(&over, rings, sheen);
+    }
+    lmp_release(host, rings);
+    return LMP_OK;
 }
 
 static void eval_sheen(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]) {
@@ -139,7 +175,12 @@ lmp_result lmp_brdf_create_sheen(const lmp_host *host, const lmp_sheen *sheen, l
     const lmp_result result = lmp_brdf_new(host, LMP_BRDF_SHEEN, 0, brdf);
     if (result != LMP_OK)
         return result;
-    limit_gain(&own);
+    const lmp_result limited = limit_gain(&(*brdf)->host, &own);
+    if (limited != LMP_OK) {
+        lmp_brdf_destroy(*brdf);
+        *brdf = NULL;
+        return limited;
+    }
     (*brdf)->sheen = own;
     (*brdf)->info.mirrored = true;
     (*brdf)->eval = eval_sheen;
