@@ -54,6 +54,23 @@ extern const float lmp_table_zonal_cap[LMP_BANDS_MAX],
 /* Y_l0(z) = sqrt((2l+1)/(4 pi)). */
 extern const float lmp_table_pole[LMP_BANDS_MAX];
 
+/* What is not 0 of the matrices by which a quarter turn around x, (x, y, z) to (x, -z, y), takes
+ * coefficients: rows m = -l … l of one band after another, of each every second column, so many
+ * from the first one on. The turn back has the transposed matrices. */
+#define LMP_TABLE_QUARTER_BANDS 16
+#define LMP_TABLE_QUARTERS      1376
+extern const float lmp_table_quarter[LMP_TABLE_QUARTERS];
+
+static inline int lmp_table_quarter_first(int l, int m) {
+    if ((l + m) % 2 != 0)
+        return m >= 0 ? -l : 1 - l;
+    return (m >= 0) == (l % 2 == 0) ? 0 : 1;
+}
+static inline int lmp_table_quarter_count(int l, int m) {
+    const int first = lmp_table_quarter_first(l, m);
+    return first < 0 ? (1 - first) / 2 : (l - first) / 2 + 1;
+}
+
 /* The Γ_ijk = ∫ Y_i Y_j Y_k that are not 0, i <= j <= k, in the order of k: those of `bands` bands
  * come before lmp_table_triple_ends[bands]. Divided by 2 where two of the indices are equal and by
  * 6 where all are, so that every one stands for its six orders. */

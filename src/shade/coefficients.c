@@ -4,6 +4,7 @@
 #include "src/brdf/table.h"
 #include "src/light/cap.h"
 #include "src/sh/column.h"
+#include "src/sh/euler.h"
 #include "src/shade/material.h"
 
 #include <assert.h>
@@ -141,6 +142,8 @@ static frame frame_of(const lmp_surface *surface, float *phi) {
 
 lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
                         const lmp_light *lights, size_t count) {
+    if (count == 0)
+        return (lmp_rgb) { 0, 0, 0 };
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
     const float cosine = scalar(surface->view, surface->normal);
     float light[3 * WAITING], row[3 * WAITING], rgb[3] = { 0, 0, 0 }, phi;
@@ -157,25 +160,69 @@ lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
     return (lmp_rgb) { rgb[0], rgb[1], rgb[2] };
 }
 
+/* --- tables under an environment -------------------------------------------------------------- */
+
+/* Red, green and blue of a coefficient, and nothing: multiplied at once. */
+typedef float colors __attribute__((vector_size(16)));
+
+enum { MOST = LMP_ENVIRONMENT_TABLE_BANDS };
+static_assert(MOST <= LMP_EULER_BANDS, "an environment is rotated at once");
+
+static void interleave(size_t count, const float *planes, size_t plane, colors *to) {
+    for (size_t i = 0; i < count; i++)
+        to[i] = (colors) { planes[i], planes[plane + i], planes[2 * plane + i], 0 };
+}
+
+/* A row of the table, m < 0 too, which a mirrored one leaves out. */
+static void interleave_row(int bands, bool mirrored, const float *row, size_t each, colors *to) {
+    if (!mirrored) {
+        interleave(LMP_SH_COUNT(bands), row, each, to);
+        return;
+    }
+    for (int l = 0; l < bands; l++)
+        for (int m = 0; m <= l; m++, row++) {
+            to[LMP_SH_INDEX(l, -m)] = (colors) { 0 };
+            to[LMP_SH_INDEX(l, m)] = (colors) { row[0], row[each], row[2 * each], 0 };
+        }
+}
+
+/* The product of a row with the environment in its frame, which is Z X^T Z X Z e by the five
+ * factors of a rotation (euler.h): the row takes the outer two, transposed, the environment the
+ * others, and no matrix is made. */
+static colors rotated_product(int bands, const lmp_euler_angles *angles, colors *row,
+                              colors *light) {
+    colors first[LMP_SH_COUNT(MOST)], sum = { 0 };
+    lmp_euler_angle back = angles->last;
+    for (int m = 0; m < bands; m++)
+        back.s[m] = -back.s[m];
+    LMP_EULER_Z(colors, bands, &back, row, row)
+    LMP_EULER_QUARTER(colors, bands, row, first)
+    LMP_EULER_Z(colors, bands, &angles->first, light, light)
+    LMP_EULER_QUARTER(colors, bands, light, row)
+    LMP_EULER_Z(colors, bands, &angles->middle, row, row)
+    for (size_t i = 0; i < LMP_SH_COUNT(bands); i++)
+        sum += first[i] * row[i];
+    return sum;
+}
+
 lmp_rgb lmp_shade_table_environment(const lmp_brdf_table *table, const lmp_surface *surface,
                                     const lmp_environment *environment) {
-    enum { MOST = LMP_ENVIRONMENT_TABLE_BANDS };
-    static_assert(LMP_SH_COUNT(MOST) <= WAITING, "an environment is rotated at once");
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
     const int known = environment->bands < info.bands ? environment->bands : info.bands;
-    const band_range range = { 0, known < MOST ? known : MOST,
-                               LMP_SH_COUNT(known < MOST ? known : MOST) };
-    float matrices[LMP_SH_ROTATION_COUNT(MOST)], light[LMP_SH_COUNT(MOST)];
-    float row[3 * LMP_SH_COUNT(MOST)], rgb[3] = { 0, 0, 0 }, phi;
+    const int bands = known < MOST ? known : MOST;
+    float values[3 * LMP_SH_COUNT(MOST)], phi;
+    colors row[LMP_SH_COUNT(MOST)], light[LMP_SH_COUNT(MOST)];
     const frame f = frame_of(surface, &phi);
-    const float into_frame[9] = { f.x.x, f.x.y, f.x.z, f.y.x, f.y.y, f.y.z, f.z.x, f.z.y, f.z.z };
-    lmp_sh_rotation_from_matrix(range.high, into_frame, matrices);
-    const size_t each = lmp_brdf_table_bands(table, scalar(surface->view, surface->normal), phi, 0,
-                                             range.high, row);
-    for (size_t c = 0; c < 3; c++) {
-        const float *plane = environment->sh + c * LMP_SH_COUNT(environment->bands);
-        lmp_sh_rotate(range.high, matrices, plane, light);
-        add_products(range, info.mirrored, light, row + c * each, &rgb[c]);
-    }
+    const double into_frame[9] = { (double)f.x.x, (double)f.x.y, (double)f.x.z,
+                                   (double)f.y.x, (double)f.y.y, (double)f.y.z,
+                                   (double)f.z.x, (double)f.z.y, (double)f.z.z };
+    const lmp_euler euler = lmp_euler_of(into_frame);
+    lmp_euler_angles angles;
+    lmp_euler_angles_of(bands, &euler, &angles);
+    const size_t each =
+        lmp_brdf_table_bands(table, scalar(surface->view, surface->normal), phi, 0, bands, values);
+    interleave_row(bands, info.mirrored, values, each, row);
+    interleave(LMP_SH_COUNT(bands), environment->sh, LMP_SH_COUNT(environment->bands), light);
+    const colors rgb = rotated_product(bands, &angles, row, light);
     return (lmp_rgb) { rgb[0], rgb[1], rgb[2] };
 }

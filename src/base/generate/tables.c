@@ -91,6 +91,60 @@ static double zonal_scale(int form, int l) {
     return (l == 0 ? 0.5 : (2 * l + 1) / 4.0) * norm_p * norm_r;
 }
 
+/* --- a quarter turn around x ------------------------------------------------------------------ */
+
+/* d^l_mk of a quarter turn, m >= 0, by the recurrence of src/sh/rotation.c from l = max(m, |k|). */
+static double quarter_wigner(int l, int m, int k) {
+    const int first = m > abs(k) ? m : abs(k), other = m > abs(k) ? k : k < 0 ? -m : m;
+    double before = 0, now = 1, root = 0;
+    for (int i = 1; i <= first - other; i++)
+        now *= (first + other + i) / (double)i;
+    now = sqrt(now);
+    for (int i = 0; i < first; i++)
+        now /= 2;
+    if ((first - other) % 2 != 0 && k <= m)
+        now = -now;
+    for (int i = first; i < l; i++) {
+        const double up = (i + 1.0) * (i + 1.0);
+        const double next = sqrt((up - (double)m * m) * (up - (double)k * k));
+        const double tilt = i > 0 ? (double)m * k / i : 0;
+        const double value =
+            -(2 * i + 1) * tilt * now - (i > first ? (i + 1) * root / i * before : 0);
+        before = now;
+        now = value / next;
+        root = next;
+    }
+    return now;
+}
+
+/* The cosine of so many quarters of a turn. */
+static int quarter_cosine(int quarters) {
+    const int of[4] = { 1, 0, -1, 0 };
+    return of[((quarters % 4) + 4) % 4];
+}
+static int quarter_sine(int quarters) {
+    return quarter_cosine(quarters - 1);
+}
+
+/* Row m, column k of band l's matrix: x by a quarter is z by -a quarter, y by one, z by one. */
+static double quarter(int l, int m, int k) {
+    const int am = abs(m), ak = abs(k), sum = ak - am, difference = -am - ak;
+    const double p = quarter_wigner(l, am, ak);
+    const double s = (ak % 2 ? -1 : 1) * quarter_wigner(l, am, -ak);
+    if (m == 0 || k == 0) {
+        const double scale = m == 0 && k == 0 ? 1 : sqrt(2);
+        return scale * p *
+               (m < 0   ? quarter_sine(sum)
+                : k < 0 ? -quarter_sine(sum)
+                        : quarter_cosine(sum));
+    }
+    if (m > 0)
+        return k > 0 ? p * quarter_cosine(sum) + s * quarter_cosine(difference)
+                     : s * quarter_sine(difference) - p * quarter_sine(sum);
+    return k > 0 ? p * quarter_sine(sum) + s * quarter_sine(difference)
+                 : p * quarter_cosine(sum) - s * quarter_cosine(difference);
+}
+
 /* --- triple products -------------------------------------------------------------------------- */
 
 enum { DEGREES = 3 * LMP_TABLE_TRIPLE_BANDS }; /* of a product of three, and more */
@@ -240,6 +294,17 @@ static void print_scale(void) {
     }
 }
 
+static void print_quarters(void) {
+    int index = 0;
+    printf("\nconst float lmp_table_quarter[LMP_TABLE_QUARTERS] = {");
+    for (int l = 0; l < LMP_TABLE_QUARTER_BANDS; l++)
+        for (int m = -l; m <= l; m++)
+            for (int k = lmp_table_quarter_first(l, m), n = lmp_table_quarter_count(l, m); n > 0;
+                 n--, k += 2)
+                print_value(index++, quarter(l, m, k));
+    printf("\n};\n");
+}
+
 int main(void) {
     printf("/* SPDX-License-Identifier: MIT */\n"
            "/* Written by src/base/generate/tables.c; do not edit. */\n"
@@ -259,6 +324,7 @@ int main(void) {
     print_bands("zonal_cap", zonal_cap);
     print_bands("zonal_lobe", zonal_lobe);
     print_bands("pole", pole);
+    print_quarters();
     print_triples();
     return 0;
 }
