@@ -73,6 +73,13 @@ LMP_API void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rot
 /* Rotates coefficients by the matrices of lmp_sh_rotation, not in place. */
 LMP_API void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rotated);
 
+/* The two in one, where a rotation has but a few functions to rotate: no matrices are made, and up
+ * to LMP_SH_FEW_BANDS bands it takes as long as rotating by them does.
+ *
+ * rotation as for lmp_sh_rotation_from_matrix; not in place */
+LMP_API void lmp_sh_rotate_by_matrix(int bands, const float rotation[9], const float *sh,
+                                     float *rotated);
+
 /* Windowing filters damp the ringing of a truncated series by scaling band l by a weight (Sloan
  * 2008). Apply one once, to the material, never to light and material both. */
 typedef enum lmp_window {
@@ -209,8 +216,8 @@ LMP_API void lmp_sh_unpack_half(const uint16_t *halves, size_t count, float *val
 
 /* --- in double -----------------------------------------------------------------------------------
  * For research: within 1e-13 of exact values to 20 bands (docs/accuracy.md), the same bits on every
- * machine but for rotations, which take sines of the C library. One element a call and no vectors,
- * because the kernels' tables are floats. Contracts are those of the functions without _double. */
+ * machine. One element a call and no vectors, because the kernels' tables are floats. Contracts are
+ * those of the functions without _double. */
 
 /* Y_lm(direction). */
 LMP_API void lmp_sh_eval_double(int bands, const double direction[3], double *sh);

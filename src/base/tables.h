@@ -71,6 +71,13 @@ static inline int lmp_table_quarter_count(int l, int m) {
     return first < 0 ? (1 - first) / 2 : (l - first) / 2 + 1;
 }
 
+/* The same of bands 2 to 5 for registers of 16 lanes, m in lane 8 + m: what is added up to a lane,
+ * term after term, is lmp_table_quarter_terms[l - 2] times the lane that lmp_table_quarter_lanes
+ * has there. Terms that a row has not are 0. */
+#define LMP_TABLE_QUARTER_LANES 16
+extern const float lmp_table_quarter_terms[4][3][LMP_TABLE_QUARTER_LANES];
+extern const int32_t lmp_table_quarter_lanes[4][3][LMP_TABLE_QUARTER_LANES];
+
 /* The Γ_ijk = ∫ Y_i Y_j Y_k that are not 0, i <= j <= k, in the order of k: those of `bands` bands
  * come before lmp_table_triple_ends[bands]. Divided by 2 where two of the indices are equal and by
  * 6 where all are, so that every one stands for its six orders. */

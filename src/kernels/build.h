@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* build.h - one build of the kernels: the file that includes it sets LMP_LANES and LMP_KERNELS, and
+/* build.h - one build of the kernels: the file that includes it sets LMP_LANES, LMP_KERNELS and
+ * LMP_SINGLE, and
  * CMake its instruction set. */
 #include "src/kernels/accumulate_more.h"
 #include "src/kernels/eval_gradient.h"
@@ -16,6 +17,7 @@
 #include "src/kernels/refine.h"
 #include "src/kernels/rows.h"
 #include "src/kernels/shade_zonal.h"
+#include "src/kernels/single.h"
 #include "src/kernels/vectors.h"
 
 extern const lmp_kernels LMP_KERNELS;
@@ -64,4 +66,5 @@ const lmp_kernels LMP_KERNELS = {
     .shade_field = kernel_shade_field,
     .shade_preintegrated_lobe = kernel_shade_preintegrated_lobe,
     .shade_preintegrated_brdf = kernel_shade_preintegrated_brdf,
+    .single = &LMP_SINGLE,
 };

@@ -3,8 +3,6 @@
 
 #include <lampion/cpu.h>
 
-#include <stdatomic.h>
-
 #ifdef LMP_KERNELS_X86
 #include <cpuid.h>
 #endif
@@ -18,7 +16,7 @@ extern const lmp_kernels lmp_kernels_avx512;
 #endif
 
 /* The only state of the library. Whoever finds it empty publishes the same value. */
-static _Atomic(const lmp_kernels *) lmp_kernel_table;
+_Atomic(const lmp_kernels *) lmp_kernel_table;
 
 #ifdef LMP_KERNELS_X86
 /* Conversions of 16 bits, which every CPU with AVX2 has; clang 14 has no name for them. */
@@ -79,16 +77,12 @@ unsigned lmp_cpu_mask(unsigned mask) {
     return flag;
 }
 
-const lmp_kernels *lmp_kernels_get(void) {
-    const lmp_kernels *kernels = atomic_load_explicit(&lmp_kernel_table, memory_order_acquire);
-    if (!kernels) {
-        unsigned flag;
-        const lmp_kernels *none = NULL;
-        kernels = kernels_best(LMP_CPU_ALL, &flag);
-        /* A mask set meanwhile by another thread stands. */
-        if (!atomic_compare_exchange_strong(&lmp_kernel_table, &none, kernels))
-            kernels = none;
-    }
+const lmp_kernels *lmp_kernels_find(void) {
+    unsigned flag;
+    const lmp_kernels *none = NULL, *kernels = kernels_best(LMP_CPU_ALL, &flag);
+    /* A mask set meanwhile by another thread stands. */
+    if (!atomic_compare_exchange_strong(&lmp_kernel_table, &none, kernels))
+        kernels = none;
     return kernels;
 }
 

@@ -15,7 +15,7 @@ set(kernels ${PROJECT_SOURCE_DIR}/src/kernels)
 if(LAMPION_SANITIZE)
   list(APPEND lampion_kernel_options -DLMP_KERNELS_SANITIZED)
 endif()
-set_source_files_properties(${kernels}/scalar.c PROPERTIES COMPILE_OPTIONS "${lampion_kernel_options}")
+set_source_files_properties(${kernels}/scalar.c ${kernels}/single_scalar.c PROPERTIES COMPILE_OPTIONS "${lampion_kernel_options}")
 
 # The compiler is asked what it compiles for: CMAKE_SYSTEM_PROCESSOR is what a toolchain file or a cross build says
 # it is, and with -m32 or -arch not even that.
@@ -35,18 +35,18 @@ if(LAMPION_SIMD AND (LAMPION_FOR_x86_64 OR LAMPION_FOR_aarch64 OR LAMPION_FOR_wa
   if(LAMPION_FOR_wasm32)
     list(APPEND options -msimd128)
   endif()
-  set_source_files_properties(${kernels}/vector.c PROPERTIES COMPILE_OPTIONS "${options}")
+  set_source_files_properties(${kernels}/vector.c ${kernels}/single_vector.c PROPERTIES COMPILE_OPTIONS "${options}")
 else()
-  list(REMOVE_ITEM lampion_sources ${kernels}/vector.c)
+  list(REMOVE_ITEM lampion_sources ${kernels}/vector.c ${kernels}/single_vector.c)
 endif()
 if(LAMPION_SIMD AND LAMPION_FOR_x86_64)
   list(APPEND lampion_kernel_builds LMP_KERNELS_X86)
-  set_source_files_properties(${kernels}/avx2.c PROPERTIES
+  set_source_files_properties(${kernels}/avx2.c ${kernels}/single_avx2.c PROPERTIES
     COMPILE_OPTIONS "${lampion_kernel_options};-mavx2;-mf16c")
-  set_source_files_properties(${kernels}/avx512.c PROPERTIES
+  set_source_files_properties(${kernels}/avx512.c ${kernels}/single_avx512.c PROPERTIES
     COMPILE_OPTIONS "${lampion_kernel_options};-mavx512f;-mavx512vl;-mavx512dq;-mprefer-vector-width=512")
 else()
-  list(REMOVE_ITEM lampion_sources ${kernels}/avx2.c ${kernels}/avx512.c)
+  list(REMOVE_ITEM lampion_sources ${kernels}/avx2.c ${kernels}/avx512.c ${kernels}/single_avx2.c ${kernels}/single_avx512.c)
 endif()
 set_source_files_properties(${kernels}/kernels.c PROPERTIES
   COMPILE_DEFINITIONS "${lampion_kernel_builds}")

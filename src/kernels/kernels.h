@@ -13,6 +13,7 @@
 #include <lampion/base.h>
 
 #include <math.h>
+#include <stdatomic.h>
 
 #define LMP_KERNEL_LANES_MAX 16
 
@@ -317,6 +318,7 @@ typedef struct lmp_kernels {
                                      const lmp_kernel_surfaces *surfaces,
                                      const lmp_packed_light *lights, size_t light_count,
                                      lmp_rgb ambient, size_t count, float *const rgb[3]);
+    const struct lmp_single *single; /* single.h */
 } lmp_kernels;
 
 /* The build for AVX2, to which that for AVX-512 hands what it would not do faster. */
@@ -326,7 +328,13 @@ extern const lmp_kernels lmp_kernels_avx2;
  * and machine have; scalar when there is none. Returns the flag of the build taken. */
 unsigned lmp_kernels_init(lmp_kernels *kernels, unsigned cpu_flags);
 
-/* The table in use: what lmp_cpu_mask chose, else the best. */
-const lmp_kernels *lmp_kernels_get(void);
+/* The table in use: what lmp_cpu_mask chose, else the best, which the first call finds. Inline, for
+ * a call of its own would take as long as evaluating a few bands. */
+extern _Atomic(const lmp_kernels *) lmp_kernel_table;
+const lmp_kernels *lmp_kernels_find(void);
+static inline const lmp_kernels *lmp_kernels_get(void) {
+    const lmp_kernels *kernels = atomic_load_explicit(&lmp_kernel_table, memory_order_acquire);
+    return kernels ? kernels : lmp_kernels_find();
+}
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/base/precondition.h"
+#include "src/kernels/single.h"
 #include "src/light/cap.h"
 #include "src/light/packed.h"
 #include "src/sh/column.h"
@@ -134,6 +135,20 @@ void lmp_cap_add(int low, int high, const lmp_cap *cap, float *const planes[3]) 
     }
 }
 
+/* The only light of few bands: nothing is added to. */
+static void project_one(int bands, const lmp_light *light, lmp_vec3 point, float *const planes[3]) {
+    lmp_cap cap;
+    lmp_light_cap(light, point, &cap);
+    lmp_single_cap single = { .axis = cap.axis };
+    const lmp_rgb ambient = scaled(cap.ambient, 1 / lmp_table_pole[0]);
+    if (cap.one_minus_cos > 0)
+        LMP_STRAIGHT(bands, lmp_cap_polynomials, cap.one_minus_cos, single.factors)
+    else
+        for (int l = 0; l < LMP_SINGLE_BANDS; l++)
+            single.factors[l] = 1;
+    lmp_single_get()->colors[bands](&single, cap.strength, ambient, planes);
+}
+
 void lmp_light_project_channels(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                                 float *red, float *green, float *blue) {
     assert(lmp_is_bands(bands));
@@ -142,6 +157,10 @@ void lmp_light_project_channels(int bands, const lmp_light *lights, size_t count
         assert(!planes[c] || !planes[(c + 1) % 3] ||
                lmp_are_apart(planes[c], LMP_SH_COUNT(bands), planes[(c + 1) % 3],
                              LMP_SH_COUNT(bands)));
+    if (count == 1 && bands <= LMP_SINGLE_BANDS && red && green && blue) {
+        project_one(bands, lights, point, planes);
+        return;
+    }
     for (int c = 0; c < 3; c++)
         if (planes[c])
             memset(planes[c], 0, LMP_SH_COUNT(bands) * sizeof *planes[c]);

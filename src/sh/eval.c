@@ -1,17 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/base/precondition.h"
+#include "src/kernels/single.h"
 #include "src/sh/column.h"
 
 #include <lampion/sh.h>
 
 void lmp_sh_values(int bands, lmp_vec3 direction, float *sh) {
+    if (bands <= LMP_SINGLE_BANDS) {
+        lmp_single_get()->eval[bands](direction, sh);
+        return;
+    }
     LMP_STRAIGHT_SMALL(bands, lmp_sh_put, direction, NULL, NULL, sh)
 }
 
 void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh) {
     assert(lmp_is_bands(bands));
     assert(lmp_is_unit(direction));
-    lmp_sh_values(bands, direction, sh);
+    if (bands <= LMP_SINGLE_BANDS)
+        lmp_single_get()->eval[bands](direction, sh);
+    else
+        lmp_sh_values(bands, direction, sh);
 }
 
 void lmp_sh_zonal_bands(int low, int high, const float *factors, lmp_vec3 axis, float *sh) {
@@ -30,6 +38,8 @@ void lmp_sh_zonal_bands(int low, int high, const float *factors, lmp_vec3 axis, 
 
 float lmp_sh_dot(int bands, const float *a, const float *b) {
     assert(lmp_is_bands(bands));
+    if (bands <= LMP_SINGLE_BANDS)
+        return lmp_single_get()->dot[bands](a, b);
     float sum = 0;
     for (int l = 0; l < bands; l++) {
         float band = 0;
@@ -71,6 +81,10 @@ void lmp_sh_combine(int bands, float s, const float *a, float t, const float *b,
     assert(lmp_is_bands(bands));
     assert(lmp_are_same_or_apart(a, sh, LMP_SH_COUNT(bands)));
     assert(lmp_are_same_or_apart(b, sh, LMP_SH_COUNT(bands)));
+    if (bands <= LMP_SINGLE_BANDS) {
+        lmp_single_get()->combine[bands](s, a, t, b, sh);
+        return;
+    }
     for (size_t i = 0; i < LMP_SH_COUNT(bands); i++)
         sh[i] = s * a[i] + t * b[i];
 }

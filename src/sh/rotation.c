@@ -2,135 +2,164 @@
 /* Rotation by Wigner's d, R = Rz(alpha) Ry(beta) Rz(gamma). For each (m, k) the three-term
  * recurrence in l starts from a closed form at l = max(|m|, |k|) and runs upward, its stable
  * direction; so float32 orthogonality holds to 128 bands, where the recurrence of Ivanic and
- * Ruedenberg has lost it. All in double: the entries, not the path to them, are float. */
+ * Ruedenberg has lost it. All in double: the entries, not the path to them, are float. Angles are
+ * cosines and sines from the start: nothing but the root is asked of the C library. */
 #include "src/base/precondition.h"
+#include "src/kernels/euler.h"
+#include "src/kernels/single.h"
 
 #include <lampion/sh.h>
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { POWERS = 2 * LMP_BANDS_MAX };
 
 /* What the entries are made of, for one rotation. */
 typedef struct euler {
     double cos_beta;
-    double cos_half[POWERS], sin_half[POWERS]; /* powers of cos and sin of beta/2 */
-    double log_factorial[POWERS];
+    double cos_half[POWERS], sin_half[POWERS];                 /* powers of cos and sin of beta/2 */
     double alpha_cos[LMP_BANDS_MAX], alpha_sin[LMP_BANDS_MAX]; /* of m alpha */
     double gamma_cos[LMP_BANDS_MAX], gamma_sin[LMP_BANDS_MAX]; /* of k gamma */
 } euler;
 
+static void multiples(int bands, double c1, double s1, double *c, double *s) {
+    c[0] = 1;
+    s[0] = 0;
+    for (int m = 1; m < bands; m++) {
+        /* of two halves: an error of the angle grows with the logarithm of m, not with m */
+        const int a = m / 2, b = m - a;
+        c[m] = m == 1 ? c1 : c[a] * c[b] - s[a] * s[b];
+        s[m] = m == 1 ? s1 : c[a] * s[b] + s[a] * c[b];
+    }
+}
+
 static void euler_prepare(euler *angles, int bands, const double q[4]) {
-    const double x = q[0], y = q[1], z = q[2], w = q[3];
-    const double c = hypot(z, w), s = hypot(x, y), length = hypot(c, s);
-    assert(length > 0 && isfinite(length));
-    /* q = qz(alpha) qy(beta) qz(gamma): the half angles come from q itself, without cancellation */
-    const double half_sum = atan2(z, w), half_difference = atan2(-x, y);
+    const double largest = fmax(fmax(fabs(q[0]), fabs(q[1])), fmax(fabs(q[2]), fabs(q[3])));
+    assert(largest > 0 && isfinite(largest));
+    const double x = q[0] / largest, y = q[1] / largest, z = q[2] / largest, w = q[3] / largest;
+    const double c = sqrt(z * z + w * w), s = sqrt(x * x + y * y), length = sqrt(c * c + s * s);
+    /* q = qz(alpha) qy(beta) qz(gamma): the half angles come from q itself, without cancellation;
+     * (w, z) / c is half their sum, (y, -x) / s half their difference */
+    const double sum_c = c > 0 ? w / c : 1, sum_s = c > 0 ? z / c : 0;
+    const double difference_c = s > 0 ? y / s : 1, difference_s = s > 0 ? -x / s : 0;
     angles->cos_beta = (c - s) * (c + s) / (length * length);
     angles->cos_half[0] = angles->sin_half[0] = 1;
-    angles->log_factorial[0] = 0;
     for (int i = 1; i < 2 * bands; i++) {
         angles->cos_half[i] = angles->cos_half[i - 1] * (c / length);
         angles->sin_half[i] = angles->sin_half[i - 1] * (s / length);
-        angles->log_factorial[i] = angles->log_factorial[i - 1] + log(i);
     }
-    for (int m = 0; m < bands; m++) {
-        angles->alpha_cos[m] = cos(m * (half_sum + half_difference));
-        angles->alpha_sin[m] = sin(m * (half_sum + half_difference));
-        angles->gamma_cos[m] = cos(m * (half_sum - half_difference));
-        angles->gamma_sin[m] = sin(m * (half_sum - half_difference));
-    }
+    multiples(bands, sum_c * difference_c - sum_s * difference_s,
+              sum_s * difference_c + sum_c * difference_s, angles->alpha_cos, angles->alpha_sin);
+    multiples(bands, sum_c * difference_c + sum_s * difference_s,
+              sum_s * difference_c - sum_c * difference_s, angles->gamma_cos, angles->gamma_sin);
 }
 
-/* d^l_mk at l = max(m, |k|), m >= 0. An underflow to 0 is harmless: the recurrence multiplies it by
- * less than 1e80 up to 128 bands. */
-static double wigner_first(const euler *angles, int m, int k) {
-    const int l = m > abs(k) ? m : abs(k), other = m > abs(k) ? k : k < 0 ? -m : m;
-    const double *f = angles->log_factorial;
-    const double root = exp((f[2 * l] - f[l + other] - f[l - other]) / 2);
-    const double size = root * angles->cos_half[l + other] * angles->sin_half[l - other];
-    /* d^l_lk carries (-sin)^(l-k); d^l_ml = (-1)^(l-m) d^l_lm carries sin^(l-m) */
-    const int odd = (l - other) % 2 != 0;
-    return odd && (k <= m) ? -size : size;
-}
-
-/* d[l] = d^l_mk for l = max(m, |k|) … bands-1. */
-static void wigner(const euler *angles, int bands, int m, int k, double *d) {
-    const int first = m > abs(k) ? m : abs(k);
+/* d^l_mk and d^l_m,-k of l = m … bands-1, 0 <= k <= m, in [l]. root is that of (2m)! over
+ * (m+k)! (m-k)!. An underflow to 0 is harmless: the recurrence multiplies it by less than 1e80 up
+ * to 128 bands. */
+static void wigner(const euler *angles, int bands, int m, int k, double root, double *plus,
+                   double *minus) {
     const double mm = (double)m * m, kk = (double)k * k;
-    double root = 0; /* sqrt((l²-m²)(l²-k²)) */
-    d[first] = wigner_first(angles, m, k);
-    for (int l = first; l + 1 < bands; l++) {
+    double before = 0; /* sqrt((l²-m²)(l²-k²)) */
+    /* d^m_mk carries (-sin)^(m-k) */
+    plus[m] = root * angles->cos_half[m + k] * angles->sin_half[m - k];
+    minus[m] = root * angles->cos_half[m - k] * angles->sin_half[m + k];
+    if ((m - k) % 2 != 0) {
+        plus[m] = -plus[m];
+        minus[m] = -minus[m];
+    }
+    for (int l = m; l + 1 < bands; l++) {
         const double up = (double)(l + 1) * (l + 1), tilt = l > 0 ? (double)m * k / l : 0;
-        const double next = sqrt((up - mm) * (up - kk));
-        double value = (2 * l + 1) * ((l + 1) * angles->cos_beta - tilt) * d[l];
-        if (l > first)
-            value -= (l + 1) * root / l * d[l - 1];
-        d[l + 1] = value / next;
-        root = next;
+        const double next = sqrt((up - mm) * (up - kk)), per = 1 / next, wide = 2 * l + 1;
+        const double middle = (l + 1) * angles->cos_beta;
+        double p = wide * (middle - tilt) * plus[l], s = wide * (middle + tilt) * minus[l];
+        if (l > m) {
+            const double back = (l + 1) * before / l;
+            p -= back * plus[l - 1];
+            s -= back * minus[l - 1];
+        }
+        plus[l + 1] = p * per;
+        minus[l + 1] = s * per;
+        before = next;
     }
 }
 
-/* Where the entries go: to floats or to doubles, the other NULL. */
-typedef struct matrices_of {
+/* Where the entries go: to matrices of floats or of doubles, or, times coefficients, to others'
+ * sums; what is not wanted is NULL. */
+typedef struct entries_to {
     float *floats;
     double *doubles;
-} matrices_of;
+    const float *sh;
+    float *rotated;
+} entries_to;
 
-static void put(const matrices_of *matrices, int l, int m, int k, double value) {
+static inline void put(const entries_to *to, int l, int m, int k, double value) {
     const size_t at = LMP_SH_ROTATION_COUNT(l) + (size_t)((l + m) * (2 * l + 1) + l + k);
-    if (matrices->floats)
-        matrices->floats[at] = (float)value;
+    if (to->floats)
+        to->floats[at] = (float)value;
+    else if (to->doubles)
+        to->doubles[at] = value;
     else
-        matrices->doubles[at] = value;
+        to->rotated[LMP_SH_INDEX(l, m)] += (float)value * to->sh[LMP_SH_INDEX(l, k)];
 }
 
-/* The entries (±m, ±k) of all bands. From Y^m(Rw) = Σ_k exp(i m alpha) d_mk exp(i k gamma) Y^k(w)
- * for the complex harmonics, and Y_l,±m = sqrt(2) {Re, Im} Y^m. */
-static void fill(const euler *angles, int bands, int m, int k, const matrices_of *matrices) {
-    double plus[LMP_BANDS_MAX], minus[LMP_BANDS_MAX];
-    wigner(angles, bands, m, k, plus);
-    wigner(angles, bands, m, -k, minus);
+/* The entries (±m, ±k) of bands first … bands-1, of d^l_mk and (-1)^k d^l_m,-k. From
+ * Y^m(Rw) = Σ_k exp(i m alpha) d_mk exp(i k gamma) Y^k(w) for the complex harmonics, and
+ * Y_l,±m = sqrt(2) {Re, Im} Y^m. */
+static void fill(const euler *angles, int bands, int m, int k, const double signs[2],
+                 const double *plus, const double *minus, const entries_to *to) {
     const double ca = angles->alpha_cos[m], sa = angles->alpha_sin[m];
     const double cg = angles->gamma_cos[k], sg = angles->gamma_sin[k];
     const double sum_c = ca * cg - sa * sg, sum_s = sa * cg + ca * sg;
     const double difference_c = ca * cg + sa * sg, difference_s = sa * cg - ca * sg;
-    const double sign = k % 2 ? -1 : 1;
     for (int l = m > k ? m : k; l < bands; l++) {
-        const double p = plus[l], s = sign * minus[l];
+        const double p = signs[0] * plus[l], s = signs[1] * minus[l];
         if (m == 0 || k == 0) {
             /* one of ±m, ±k is one entry, where p = s */
             const double scale = m == 0 && k == 0 ? 1 : sqrt(2);
-            put(matrices, l, -m, k, scale * p * sum_s);
-            put(matrices, l, m, -k, scale * p * -sum_s);
-            put(matrices, l, m, k, scale * p * sum_c);
+            if (m > 0)
+                put(to, l, -m, k, scale * p * sum_s);
+            if (k > 0)
+                put(to, l, m, -k, scale * p * -sum_s);
+            put(to, l, m, k, scale * p * sum_c);
         } else {
-            put(matrices, l, m, k, p * sum_c + s * difference_c);
-            put(matrices, l, m, -k, s * difference_s - p * sum_s);
-            put(matrices, l, -m, k, p * sum_s + s * difference_s);
-            put(matrices, l, -m, -k, p * sum_c - s * difference_c);
+            put(to, l, m, k, p * sum_c + s * difference_c);
+            put(to, l, m, -k, s * difference_s - p * sum_s);
+            put(to, l, -m, k, p * sum_s + s * difference_s);
+            put(to, l, -m, -k, p * sum_c - s * difference_c);
         }
     }
 }
 
-static void rotation_of(int bands, const double rotation[4], const matrices_of *matrices) {
+/* d_km = (-1)^(m-k) d_mk and d_k,-m = d_m,-k: each is found once. */
+static void rotation_of(int bands, const double rotation[4], const entries_to *to) {
     assert(lmp_is_bands(bands));
     euler angles;
+    double plus[LMP_BANDS_MAX], minus[LMP_BANDS_MAX];
     euler_prepare(&angles, bands, rotation);
-    for (int m = 0; m < bands; m++)
-        for (int k = 0; k < bands; k++)
-            fill(&angles, bands, m, k, matrices);
+    for (int m = 0; m < bands; m++) {
+        double root = 1; /* of the binomial of 2m over m+k */
+        for (int k = m; k >= 0; k--) {
+            const double sign_m = m % 2 ? -1 : 1, sign_k = k % 2 ? -1 : 1;
+            wigner(&angles, bands, m, k, root, plus, minus);
+            fill(&angles, bands, m, k, (double[]) { 1, sign_k }, plus, minus, to);
+            if (k < m)
+                fill(&angles, bands, k, m, (double[]) { sign_m * sign_k, sign_m }, plus, minus, to);
+            root *= sqrt((double)(m + k) / (m - k + 1));
+        }
+    }
 }
 
 void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices) {
     const double q[4] = { (double)rotation.x, (double)rotation.y, (double)rotation.z,
                           (double)rotation.w };
-    rotation_of(bands, q, &(matrices_of) { .floats = matrices });
+    rotation_of(bands, q, &(entries_to) { .floats = matrices });
 }
 
 void lmp_sh_rotation_double(int bands, const double rotation[4], double *matrices) {
-    rotation_of(bands, rotation, &(matrices_of) { .doubles = matrices });
+    rotation_of(bands, rotation, &(entries_to) { .doubles = matrices });
 }
 
 /* One loop in two types: a block of each band times that band's coefficients. */
@@ -184,6 +213,40 @@ static lmp_quat quaternion_of(const float r[9]) {
 void lmp_sh_rotation_from_matrix(int bands, const float rotation[9], float *matrices) {
     assert(lmp_is_rotation(rotation));
     lmp_sh_rotation(bands, quaternion_of(rotation), matrices);
+}
+
+/* More bands than have straight-line code, by euler.h. */
+static void rotate_by_angles(int bands, const float rotation[9], const float *sh, float *rotated) {
+    float other[LMP_SH_COUNT(LMP_EULER_BANDS)];
+    lmp_euler parts;
+    lmp_euler_angles angles;
+    lmp_euler_of(rotation, &parts);
+    lmp_euler_angles_of(bands, &parts, &angles);
+    LMP_EULER_Z(float, bands, &angles.first, sh, other)
+    LMP_EULER_QUARTER(float, bands, other, rotated)
+    LMP_EULER_Z(float, bands, &angles.middle, rotated, rotated)
+    LMP_EULER_QUARTER(float, bands, rotated, other)
+    /* X^-1 is X and a half turn around x, which is but signs */
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++)
+            if ((m < 0) != ((l + m) % 2 != 0))
+                other[LMP_SH_INDEX(l, m)] = -other[LMP_SH_INDEX(l, m)];
+    LMP_EULER_Z(float, bands, &angles.last, other, rotated)
+}
+
+void lmp_sh_rotate_by_matrix(int bands, const float rotation[9], const float *sh, float *rotated) {
+    assert(lmp_is_bands(bands) && lmp_is_rotation(rotation));
+    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
+    if (bands <= LMP_SINGLE_BANDS)
+        lmp_single_get()->rotate[bands](rotation, sh, rotated);
+    else if (bands <= LMP_EULER_BANDS)
+        rotate_by_angles(bands, rotation, sh, rotated);
+    else {
+        const lmp_quat q = quaternion_of(rotation);
+        memset(rotated, 0, LMP_SH_COUNT(bands) * sizeof *rotated);
+        rotation_of(bands, (double[]) { (double)q.x, (double)q.y, (double)q.z, (double)q.w },
+                    &(entries_to) { .sh = sh, .rotated = rotated });
+    }
 }
 
 void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rotated) {

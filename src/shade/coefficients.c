@@ -2,9 +2,9 @@
 /* Sums of n² coefficients, the light's with the material's, some bands at a time: all of them at
  * once would take more stack than a function may (base.h). */
 #include "src/brdf/table.h"
+#include "src/kernels/euler.h"
 #include "src/light/cap.h"
 #include "src/sh/column.h"
-#include "src/sh/euler.h"
 #include "src/shade/material.h"
 
 #include <assert.h>
@@ -213,10 +213,9 @@ lmp_rgb lmp_shade_table_environment(const lmp_brdf_table *table, const lmp_surfa
     float values[3 * LMP_SH_COUNT(MOST)], phi;
     colors row[LMP_SH_COUNT(MOST)], light[LMP_SH_COUNT(MOST)];
     const frame f = frame_of(surface, &phi);
-    const double into_frame[9] = { (double)f.x.x, (double)f.x.y, (double)f.x.z,
-                                   (double)f.y.x, (double)f.y.y, (double)f.y.z,
-                                   (double)f.z.x, (double)f.z.y, (double)f.z.z };
-    const lmp_euler euler = lmp_euler_of(into_frame);
+    const float into_frame[9] = { f.x.x, f.x.y, f.x.z, f.y.x, f.y.y, f.y.z, f.z.x, f.z.y, f.z.z };
+    lmp_euler euler;
+    lmp_euler_of(into_frame, &euler);
     lmp_euler_angles angles;
     lmp_euler_angles_of(bands, &euler, &angles);
     const size_t each =

@@ -82,6 +82,7 @@ static void create_half_a_host(void) {
     X(combine, lmp_sh_combine(BANDS, 1, a, 2, b, a), lmp_sh_combine(BANDS, 1, a, 2, b, a + 1)) \
     X(rotate_onto_itself, lmp_sh_rotate(BANDS, matrices, a, b), lmp_sh_rotate(BANDS, matrices, a, a)) \
     X(rotate_overlap, lmp_sh_rotate(BANDS, matrices, a, a + VALUES), lmp_sh_rotate(BANDS, matrices, a, a + VALUES - 1)) \
+    X(rotate_by_matrix, lmp_sh_rotate_by_matrix(BANDS, identity, a, b), lmp_sh_rotate_by_matrix(BANDS, mirror, a, b)) \
     X(rotate_z, lmp_sh_rotate_z(BANDS, 1, a, a), lmp_sh_rotate_z(BANDS, NAN, a, a)) \
     X(quaternion, lmp_sh_rotation(BANDS, (lmp_quat) { 0, 0, 0, 2 }, matrices), lmp_sh_rotation(BANDS, (lmp_quat) { 0, 0, 0, 0 }, matrices)) \
     X(matrix, lmp_sh_rotation_from_matrix(BANDS, identity, matrices), lmp_sh_rotation_from_matrix(BANDS, mirror, matrices)) \

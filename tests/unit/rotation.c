@@ -41,6 +41,10 @@ static void rotates_the_vector_file(void **state) {
         lmp_sh_rotation_from_matrix(8, matrix, matrices);
         lmp_sh_rotate(8, matrices, sh, rotated);
         CHECK_WITHIN(check_error(64, expected, rotated), 3e-6);
+        for (int bands = 1; bands <= 8; bands++) {
+            lmp_sh_rotate_by_matrix(bands, matrix, sh, rotated);
+            CHECK_WITHIN(check_error(LMP_SH_COUNT(bands), expected, rotated), 3e-6);
+        }
     }
     check_csv_close(csv);
 }
@@ -217,6 +221,51 @@ static void around_z_needs_no_matrices(void **state) {
     }
 }
 
+/* Where angles have no direction of their own, too: middle angles of 0, nearly 0 and half a turn.
+ */
+static void a_matrix_rotates_without_matrices(void **state) {
+    (void)state;
+    enum { BANDS = 24 };
+    const int counts[] = { 1, 2, 3, 4, 5, 6, 7, 10, 16, 17, BANDS };
+    const lmp_quat rotations[] = {
+        { 0, 0, 0, 1 },
+        { 1, 0, 0, 0 },
+        { 0, 1, 0, 0 },
+        { 0, 0, 1, 0 },
+        { 1e-12f, 0, 0.6f, 0.8f },
+        { 1e-5f, 1e-4f, 0.6f, 0.8f },
+        { 0.6f, 0.8f, 0, 1e-7f },
+        { 0.6f, 0.8f, 1e-4f, 0 },
+        { 1, 2, 3, 4 },
+        check_random_rotation(),
+        check_random_rotation(),
+        check_random_rotation(),
+    };
+    static double matrices[LMP_SH_ROTATION_COUNT(BANDS)], wide[LMP_SH_COUNT(BANDS)],
+        expected[LMP_SH_COUNT(BANDS)];
+    float sh[LMP_SH_COUNT(BANDS)], rotated[LMP_SH_COUNT(BANDS) + 1];
+    for (size_t i = 0; i < sizeof rotations / sizeof *rotations; i++) {
+        const lmp_quat q = rotations[i];
+        const double four[4] = { (double)q.x, (double)q.y, (double)q.z, (double)q.w };
+        double rotation[9];
+        float matrix[9];
+        matrix_of(q, rotation);
+        for (int k = 0; k < 9; k++)
+            matrix[k] = (float)rotation[k];
+        for (size_t k = 0; k < LMP_SH_COUNT(BANDS); k++)
+            wide[k] = (double)(sh[k] = (float)check_random_between(-1, 1));
+        lmp_sh_rotation_double(BANDS, four, matrices);
+        lmp_sh_rotate_double(BANDS, matrices, wide, expected);
+        for (size_t n = 0; n < sizeof counts / sizeof *counts; n++) {
+            const size_t count = LMP_SH_COUNT(counts[n]);
+            rotated[count] = 42;
+            lmp_sh_rotate_by_matrix(counts[n], matrix, sh, rotated);
+            CHECK_WITHIN(check_error(count, expected, rotated), counts[n] > 6 ? 1e-5 : 3e-6);
+            assert_true(rotated[count] == 42);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rotates_the_vector_file),
@@ -228,6 +277,7 @@ int main(void) {
         cmocka_unit_test(undoes_itself),
         cmocka_unit_test(a_matrix_rotates_like_its_quaternion),
         cmocka_unit_test(around_z_needs_no_matrices),
+        cmocka_unit_test(a_matrix_rotates_without_matrices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -136,6 +136,7 @@ static void shade_under_a_field(void) {
     X(lmp_sh_from_zonal, lmp_sh_from_zonal(N, lambda, up, out)) \
     X(lmp_sh_rotation, lmp_sh_rotation(N, rotated_by, matrices)) \
     X(lmp_sh_rotation_from_matrix, lmp_sh_rotation_from_matrix(N, unrotated, matrices)) \
+    X(lmp_sh_rotate_by_matrix, lmp_sh_rotate_by_matrix(N, unrotated, sh, out)) \
     X(lmp_sh_rotate_z, lmp_sh_rotate_z(N, 0.5f, sh, out)) \
     X(lmp_sh_rotate, lmp_sh_rotate(N, matrices, sh, out)) \
     X(lmp_sh_eval_double, lmp_sh_eval_double(N, up_double, out_double)) \

@@ -305,6 +305,29 @@ static void print_quarters(void) {
     printf("\n};\n");
 }
 
+static void print_quarter_lanes(bool lanes) {
+    enum { LANES = LMP_TABLE_QUARTER_LANES };
+    printf("\nconst %s lmp_table_quarter_%s[4][3][LMP_TABLE_QUARTER_LANES] = {",
+           lanes ? "int32_t" : "float", lanes ? "lanes" : "terms");
+    for (int l = 2; l < 6; l++) {
+        printf("%s", l == 2 ? " {" : " }, {");
+        for (int term = 0; term < 3; term++) {
+            printf("%s", term == 0 ? " {" : "\n}, {");
+            for (int lane = 0; lane < LANES; lane++) {
+                const int m = lane - LANES / 2;
+                const bool is = abs(m) <= l && term < lmp_table_quarter_count(l, m);
+                const int k = is ? lmp_table_quarter_first(l, m) + 2 * term : 0;
+                if (lanes)
+                    printf("%s%d,", lane == 0 ? "\n" : "", LANES / 2 + k);
+                else
+                    print_value(lane, is ? quarter(l, m, k) : 0);
+            }
+        }
+        printf("\n}");
+    }
+    printf(" } };\n");
+}
+
 int main(void) {
     printf("/* SPDX-License-Identifier: MIT */\n"
            "/* Written by src/base/generate/tables.c; do not edit. */\n"
@@ -325,6 +348,8 @@ int main(void) {
     print_bands("zonal_lobe", zonal_lobe);
     print_bands("pole", pole);
     print_quarters();
+    print_quarter_lanes(false);
+    print_quarter_lanes(true);
     print_triples();
     return 0;
 }
