@@ -4,6 +4,8 @@
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
 
+#include <unistd.h>
+
 enum { SIDE = 9, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
 
 /* A sheet of 9 x 9 vertices, x and y from -1 to 1, z = 2 + x^2 / 2, its normals, and colors by the
@@ -124,11 +126,100 @@ static void few_bytes_are_not_many_faces(void **state) {
     assert_null(draco_mesh_decode(bytes, sizeof bytes));
 }
 
+/* --- a scene of others, plain and compressed -------------------------------------------------- */
+
+enum { CELLS = 1 << 18 };
+
+/* The vertices of a scene by the cells of a grid in which they lie. */
+typedef struct cells {
+    const scene *world;
+    float size;
+    int32_t *first, *next; /* of a cell, and after a vertex; -1: none */
+} cells;
+
+static uint32_t cell_of(const cells *c, const float p[3], int dx, int dy, int dz) {
+    const uint32_t x = (uint32_t)((int32_t)floorf(p[0] / c->size) + dx);
+    const uint32_t y = (uint32_t)((int32_t)floorf(p[1] / c->size) + dy);
+    const uint32_t z = (uint32_t)((int32_t)floorf(p[2] / c->size) + dz);
+    return (x * 73856093u ^ y * 19349663u ^ z * 83492791u) % CELLS;
+}
+
+static cells sort_into_cells(const scene *world, float size) {
+    cells c = { world, size, malloc(CELLS * sizeof *c.first),
+                malloc(world->vertex_count * sizeof *c.next) };
+    assert_true(c.first && c.next);
+    for (int i = 0; i < CELLS; i++)
+        c.first[i] = -1;
+    for (size_t i = 0; i < world->vertex_count; i++) {
+        const uint32_t cell = cell_of(&c, world->vertices[i].position, 0, 0, 0);
+        c.next[i] = c.first[cell];
+        c.first[cell] = (int32_t)i;
+    }
+    return c;
+}
+
+static float nearest2(const cells *c, const float p[3]) {
+    float least = INFINITY;
+    for (int k = 0; k < 27; k++) {
+        const uint32_t cell = cell_of(c, p, k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+        for (int32_t i = c->first[cell]; i >= 0; i = c->next[i]) {
+            const float *q = c->world->vertices[i].position;
+            const float x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
+            least = fminf(least, x * x + y * y + z * z);
+        }
+    }
+    return least;
+}
+
+/* Every vertex of one has one of the other within half a step of 14 bits of the largest mesh. */
+static void check_near(const scene *a, const scene *b) {
+    float step = 0;
+    for (size_t i = 0; i < b->mesh_count; i++)
+        for (int k = 0; k < 3; k++)
+            step = fmaxf(step, (b->meshes[i].maximum[k] - b->meshes[i].minimum[k]) / 16383);
+    cells c = sort_into_cells(b, step);
+    const float most = 0.5f * step * 1.7321f * 1.01f;
+    float worst = 0;
+    for (size_t i = 0; i < a->vertex_count; i++)
+        worst = fmaxf(worst, nearest2(&c, a->vertices[i].position));
+    print_message("off by %.3g of a step of %.3g\n", (double)(sqrtf(worst) / step), (double)step);
+    CHECK_WITHIN(sqrtf(worst), most);
+    free(c.first);
+    free(c.next);
+}
+
+static bool find_data(const char *name, char path[1024]) {
+    static const char *const below[] = { "", "/data" };
+    const char *data = getenv("LAMPION_DATA");
+    for (int i = 0; data && i < 2; i++) {
+        snprintf(path, 1024, "%s%s/sponza/%s", data, below[i], name);
+        if (access(path, R_OK) == 0)
+            return true;
+    }
+    print_message("skipped: LAMPION_DATA has no sponza/%s\n", name);
+    return false;
+}
+
+static void a_compressed_scene_is_the_plain_one(void **state) {
+    (void)state;
+    char plain[1024], compressed[1024];
+    if (!find_data("sponza.gltf", plain) || !find_data("sponza_draco_webp.glb", compressed))
+        return;
+    scene a = load(plain), b = load(compressed);
+    assert_int_equal(a.index_count, 3 * 262267);
+    assert_int_equal(b.index_count, a.index_count);
+    check_near(&a, &b);
+    check_near(&b, &a);
+    scene_free(&a);
+    scene_free(&b);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_compressed_mesh_is_what_it_was),
         cmocka_unit_test(what_cannot_be_decoded_is_named),
         cmocka_unit_test(few_bytes_are_not_many_faces),
+        cmocka_unit_test(a_compressed_scene_is_the_plain_one),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
