@@ -172,9 +172,10 @@ static const struct aiScene *run_assimp(assimp_job *job, cli_error *error) {
         const char *reason = aiGetErrorString();
         if (reason && reason[0])
             cli_fail(error, job->sources->subject,
-                     "is damaged, or not what its name says (Assimp: %.300s)", reason);
+                     "is damaged, or of a version or kind that Assimp cannot read: %.300s", reason);
         else
-            cli_fail(error, job->sources->subject, "is damaged, or not what its name says");
+            cli_fail(error, job->sources->subject,
+                     "is damaged, or of a version or kind that Assimp cannot read");
         return NULL;
     }
     return imported;

@@ -54,7 +54,7 @@ static void what_is_no_scene_is_refused(void **state) {
     folder_write_text("json.glb", " \n{\"asset\":{\"version\":\"2.0\"}}");
     assert_refused("json.glb", "has no triangles");
     folder_write_text("text.stl", "nothing to see here\n");
-    assert_refused("text.stl", "is damaged, or not what its name says (Assimp: ");
+    assert_refused("text.stl", "is damaged, or of a version or kind that Assimp cannot read: ");
     folder_write_text("text.gltf", "nothing to see here\n");
     folder_write_text("mark.gltf", "\xef\xbb\xbf{\"asset\":{\"version\":\"2.0\"}}");
     folder_write_text("wrong.txt", "v 0 0 0\n");
