@@ -22,8 +22,8 @@ const pixels = `(lampion.draw(), createImageBitmap(document.getElementById("view
 // The fraction of the page's pixels that differ by more than two levels from what PROGRAM renders.
 async function rendered(...options) {
     const exposure = await evaluate('lampion.exposure');
-    execFileSync(program, ['render', 'builtin:atrium', '--samples', '1', '--exposure', `${exposure}`, '--animate', 'orbit',
-        '--frames', '0-0', ...options, '-o', `${work}/wanted.png`]);
+    execFileSync(program, ['render', 'builtin:atrium', '--no-shadows', '--samples', '1', '--exposure', `${exposure}`,
+        '--animate', 'orbit', '--frames', '0-0', ...options, '-o', `${work}/wanted.png`]);
     const image = readFileSync(`${work}/wanted_0000.png`).toString('base64');
     return evaluate(`(async () => {
         const read = (bitmap) => {
