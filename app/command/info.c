@@ -42,7 +42,7 @@ static cJSON *describe(const scene *s) {
     cJSON_AddNumberToObject(root, "instances", (double)s->instance_count);
     scene_add_world(root, "minimum", s->origin, s->minimum);
     scene_add_world(root, "maximum", s->origin, s->maximum);
-    cJSON_AddNumberToObject(root, "area", s->area);
+    cJSON_AddNumberToObject(root, "area", scene_area(s));
     cJSON *meshes = cJSON_AddArrayToObject(root, "meshes");
     for (size_t i = 0; i < s->mesh_count; i++) {
         cJSON *entry = cJSON_CreateObject();
@@ -138,7 +138,7 @@ static void print_text(const scene *s) {
     printf(" …");
     print_corner(s, s->maximum);
     putchar('\n');
-    printf("%-10s %.6g\n", "area", s->area);
+    printf("%-10s %.6g\n", "area", scene_area(s));
     print_names("meshes", s->meshes->name, sizeof *s->meshes, s->mesh_count);
     printf("%-10s %zu\n", "instances", s->instance_count);
     print_names("materials", s->materials->name, sizeof *s->materials, s->material_count);

@@ -359,7 +359,6 @@ static void measure(scene *s) {
         s->maximum[k] = 0.5f;
     }
     scene_bounds(s, s->minimum, s->maximum);
-    s->area = scene_area(s);
 }
 
 bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_error *error) {

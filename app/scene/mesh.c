@@ -76,8 +76,8 @@ static void find_unit(mesh_draft *f) {
         float lo = INFINITY, hi = -INFINITY;
         for (size_t i = 0; i < f->corner_count; i++) {
             const float x = f->vertices[f->corners[i]].position[k];
-            lo = fminf(lo, x);
-            hi = fmaxf(hi, x);
+            lo = x < lo ? x : lo;
+            hi = x > hi ? x : hi;
         }
         size = fmaxf(size, hi - lo);
     }

@@ -177,7 +177,6 @@ typedef struct scene {
     size_t light_count;
     bool lights_chosen; /* by the command line: none of them is then a wish for darkness */
     float minimum[3], maximum[3]; /* bounds of all instances; without one: a unit box */
-    double area;                  /* of their triangles */
     scene_frame *frame;           /* kept once it has been found; NULL: it is found anew */
     double origin[3];             /* in the world; 0 unless the scene lies far from there */
     void *block;                  /* owned by the scene */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Instances: a scene looks, measures and stops rays as one in which every mesh stands in the world.
  */
+#include "app/scene/instance.h"
 #include "app/scene/space.h"
 #include "app/scene/vector.h"
 #include "app/trace/trace.h"
@@ -83,7 +84,7 @@ static void bounds_area_and_camera_are_those_of_all_triangles(void **state) {
     pair p = open_pair();
     assert_memory_equal(p.placed.minimum, p.flat.minimum, sizeof p.flat.minimum);
     assert_memory_equal(p.placed.maximum, p.flat.maximum, sizeof p.flat.maximum);
-    CHECK_WITHIN(fabs(p.placed.area / p.flat.area - 1), 1e-6);
+    CHECK_WITHIN(fabs(scene_area(&p.placed) / scene_area(&p.flat) - 1), 1e-6);
     const scene_camera a = scene_default_camera(&p.placed, 1.5f);
     const scene_camera b = scene_default_camera(&p.flat, 1.5f);
     assert_memory_equal(&a, &b, sizeof a);

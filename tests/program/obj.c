@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* OBJ and MTL: what the format allows is read, what it forbids is refused by its line. */
 #include "app/scene/obj.h"
+#include "app/scene/instance.h"
 #include "app/scene/scene.h"
 
 #include "tests/program/folder.h"
@@ -175,7 +176,7 @@ static void other_formats_are_read(void **state) {
                         &error))
             fail_msg("%s", error.text);
         assert_int_equal(s.index_count, 3);
-        CHECK_WITHIN(fabs(s.area - 0.5), 1e-6);
+        CHECK_WITHIN(fabs(scene_area(&s) - 0.5), 1e-6);
         scene_free(&s);
     }
 }

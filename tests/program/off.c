@@ -22,7 +22,7 @@ static void words_stand_on_any_line(void **state) {
         folder_write_text("m.off", files[i]);
         scene s = load(in_folder("m.off"));
         assert_int_equal(scene_triangle_count(&s), 2);
-        CHECK_WITHIN(fabs(s.area - 1), 1e-6);
+        CHECK_WITHIN(fabs(scene_area(&s) - 1), 1e-6);
         assert_unit_and_inside(&s);
         scene_free(&s);
     }

@@ -21,7 +21,7 @@ static void polygons_are_fans(void **state) {
     scene s = load_text(ASCII "element vertex 4\n" POSITIONS FACES("1") "end_header\n" QUAD
                                                                         "4 0 1 2 3\n");
     assert_int_equal(scene_triangle_count(&s), 2);
-    CHECK_WITHIN(fabs(s.area - 1), 1e-6);
+    CHECK_WITHIN(fabs(scene_area(&s) - 1), 1e-6);
     assert_unit_and_inside(&s);
     scene_free(&s);
 }
@@ -36,7 +36,7 @@ static void strips_are_triangles(void **state) {
     assert_int_equal(scene_triangle_count(&s), 2);
     for (size_t i = 0; i < s.vertex_count; i++)
         CHECK_WITHIN(fabs((double)s.vertices[i].normal[2] - 1), 1e-6);
-    CHECK_WITHIN(fabs(s.area - 1), 1e-6);
+    CHECK_WITHIN(fabs(scene_area(&s) - 1), 1e-6);
     scene_free(&s);
 }
 
@@ -147,7 +147,7 @@ static void lines_may_hold_more_and_faces_be_missing(void **state) {
         load_text("ply\nformat ascii 1.0\nmade by somebody\nelement vertex 4\n" POSITIONS FACES(
             "3") "end_header\n0 0 0 9 9\n1 0 0\n1 1 0 7\n0 1 0\n3 0 1 2 9 1 1 1\n3 0 2 3\n");
     assert_int_equal(scene_triangle_count(&s), 2);
-    CHECK_WITHIN(fabs(s.area - 1), 1e-6);
+    CHECK_WITHIN(fabs(scene_area(&s) - 1), 1e-6);
     assert_int_equal(s.left_out_count, 1);
     assert_string_equal(s.left_out[0].noun, "missing face");
     assert_int_equal(s.left_out[0].count, 1);

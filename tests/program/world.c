@@ -117,7 +117,7 @@ static void a_tiny_model_far_away_has_a_size(void **state) {
     folder_write_text("tiny.obj", "v 1e9 0 0\nv 1000000000.5 0 0\nv 1e9 0.25 0\nf 1 2 3\n");
     scene s = load(in_folder("tiny.obj"));
     assert_true(s.maximum[0] - s.minimum[0] == 0.5f && s.maximum[1] - s.minimum[1] == 0.25f);
-    CHECK_WITHIN(fabs(s.area - 0.0625), 1e-9);
+    CHECK_WITHIN(fabs(scene_area(&s) - 0.0625), 1e-9);
     scene_free(&s);
 }
 
