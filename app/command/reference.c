@@ -90,11 +90,6 @@ static bool choose_materials(reference_arguments *a, const scene *world, overrid
     return true;
 }
 
-/* By default where render does. */
-static void cast_shadows(reference_arguments *a, const scene *world) {
-    a->settings.shadows = shadow_wanted(&a->shadow, a->settings.environment, world);
-}
-
 static bool render(reference_arguments *a, const char *name, cli_error *error) {
     scene world;
     environment around = { .bands = 0 };
@@ -109,7 +104,7 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
     settings->environment = &around;
     const bool lit = scene_apply_lights(&world, &a->lights, error) &&
                      environment_open(&a->environment, &world, &around, error);
-    cast_shadows(a, &world);
+    settings->shadows = lit && shadow_wanted(&a->shadow, &around, &world);
     const bool ok = lit &&
                     scene_place_camera(&world, &a->camera, a->size, &settings->camera, error) &&
                     choose_materials(a, &world, &all, &sources, error) &&

@@ -47,6 +47,11 @@ static bool open_file(const char *path, float strength, image *light, cli_error 
 
 /* --- the studio ------------------------------------------------------------------------------- */
 
+/* Whether nothing lights it well that is in it, nor is that what somebody chose. */
+static bool is_dark(const scene *world) {
+    return !world->lights_chosen && !environment_lights_suffice(world);
+}
+
 /* Its front is toward the camera that frames the scene by itself. */
 static bool open_studio(const environment_options *options, const scene *world, environment *e,
                         cli_error *error) {
@@ -56,14 +61,15 @@ static bool open_studio(const environment_options *options, const scene *world, 
         return false;
     e->azimuth += x * x + z * z > 0 ? (float)atan2((double)z, (double)x) : pi / 2;
     e->studio = true;
-    e->faint = world->lights_chosen || environment_lights_suffice(world) ? 0 : world->light_count;
+    if (!options->name || is_dark(world)) /* without a name it is here for that */
+        e->faint = world->light_count;
     return check_radiance(&e->light, options->strength, "studio", error);
 }
 
 const char *environment_choose(const environment_options *options, const scene *world) {
     if (options->name)
         return options->name;
-    if (world->lights_chosen || environment_lights_suffice(world))
+    if (!is_dark(world))
         return "none";
     cli_note(world->name,
              "%s, lit by the built-in studio (--environment, --lights and --random-lights choose "

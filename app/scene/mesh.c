@@ -118,8 +118,7 @@ static void follow_normals(mesh_draft *f) {
 
 /* --- missing normals -------------------------------------------------------------------------- */
 
-/* A vertex of its own for every corner, so that faces that meet there may differ. */
-static bool split_corners(mesh_draft *f, cli_error *error) {
+bool mesh_split_corners(mesh_draft *f, cli_error *error) {
     scene_vertex *vertices = malloc((f->corner_count + 1) * sizeof *vertices);
     if (!vertices)
         return cli_fail(error, f->subject, "does not fit into memory");
@@ -305,7 +304,8 @@ bool mesh_add(mesh_draft *f, scene_builder *builder, cli_error *error) {
     if (f->has_normals && f->unsided)
         follow_normals(f);
     if (!f->has_normals)
-        ok = split_corners(f, error) && make_normals(f, error);
+        ok =
+            mesh_split_corners(f, error) && make_normals(f, error); /* faces that meet may differ */
     if (ok)
         mend_normals(f);
     return ok && (!f->weld || weld_vertices(f, error)) && make_tangents(f, error) &&

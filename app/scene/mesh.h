@@ -31,6 +31,9 @@ typedef struct mesh_draft {
 bool mesh_add(mesh_draft *draft, scene_builder *builder, cli_error *error);
 void mesh_free(mesh_draft *draft);
 
+/* Gives every corner a vertex of its own. */
+bool mesh_split_corners(mesh_draft *draft, cli_error *error);
+
 /* Flips every triangle, as a transform that mirrors needs it. */
 void mesh_flip(mesh_draft *draft);
 

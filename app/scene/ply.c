@@ -305,21 +305,15 @@ static bool has_face_coordinates(const ply_header *h) {
     return false;
 }
 
-/* A vertex of its own for every corner, with the coordinates of the corner. */
-static bool split_corners(ply_reader *r) {
+/* Gives corners their own coordinates. */
+static bool place_coordinates(ply_reader *r) {
     mesh_draft *const d = &r->draft;
-    scene_vertex *const vertices = malloc((d->corner_count + 1) * sizeof *vertices);
-    if (!vertices)
-        return fail_memory(r);
+    if (!mesh_split_corners(d, r->error))
+        return false;
     for (size_t i = 0; i < d->corner_count; i++) {
-        vertices[i] = d->vertices[d->corners[i]];
-        vertices[i].uv[0][0] = r->uvs[2 * i];
-        vertices[i].uv[0][1] = 1.0f - r->uvs[2 * i + 1];
-        d->corners[i] = (uint32_t)i;
+        d->vertices[i].uv[0][0] = r->uvs[2 * i];
+        d->vertices[i].uv[0][1] = 1.0f - r->uvs[2 * i + 1];
     }
-    free(d->vertices);
-    d->vertices = vertices;
-    d->vertex_count = d->corner_count;
     d->weld = true;
     return true;
 }
@@ -343,13 +337,12 @@ static bool add_material(ply_reader *r, source_set *sources) {
 }
 
 static bool add_all(ply_reader *r, source_set *sources) {
-    const bool split = has_face_coordinates(&r->header);
     if (!read_elements(r))
         return false;
     if (r->draft.corner_count == 0)
         return cli_fail(r->error, r->draft.subject, "has no triangles");
-    if (!(!split || split_corners(r)) || !mesh_add(&r->draft, r->builder, r->error) ||
-        !add_material(r, sources))
+    if ((has_face_coordinates(&r->header) && !place_coordinates(r)) ||
+        !mesh_add(&r->draft, r->builder, r->error) || !add_material(r, sources))
         return false;
     builder_instances(r->builder, 0);
     return r->draft.sided || sides_turn_outwards(r->builder, (const uint32_t[]) { 0 }, 1) ||

@@ -50,6 +50,24 @@ static void the_mean_is_that_of_all_directions(void **state) {
     shadow_around_free(&around);
 }
 
+static double all_light(void) {
+    double all = 0;
+    for (int i = 0; i < TEXELS; i++)
+        all += (double)(rgb[i][0] + rgb[i][1] + rgb[i][2]) / 3 * solid_angle(i / WIDTH);
+    return all;
+}
+
+/* The middle of a step. */
+static float step(int number) {
+    return ((float)number + 0.5f) / STEPS;
+}
+
+/* The radiance over the density. */
+static lmp_rgb arrives_by(const shadow_arrival *a) {
+    return (lmp_rgb) { a->radiance.r / a->density, a->radiance.g / a->density,
+                       a->radiance.b / a->density };
+}
+
 /* Each is that of the texel it points to, over its density: so often as its part of all the light
  * is, and as much a solid angle all over the texel. */
 static void directions_bring_what_their_texels_have(void **state) {
@@ -57,16 +75,13 @@ static void directions_bring_what_their_texels_have(void **state) {
     static int drawn[TEXELS];
     static double along[TEXELS];
     shadow_around around;
-    double all = 0;
     color();
-    for (int i = 0; i < TEXELS; i++)
-        all += (double)(rgb[i][0] + rgb[i][1] + rgb[i][2]) / 3 * solid_angle(i / WIDTH);
+    const double all = all_light();
     assert_true(shadow_around_create(&sky, &around));
     for (int i = 0; i < STEPS * STEPS; i++) {
-        const float u = ((float)(i / STEPS) + 0.5f) / STEPS,
-                    v = ((float)(i % STEPS) + 0.5f) / STEPS;
-        lmp_rgb arrives;
-        const lmp_vec3 d = shadow_around_draw(&around, u, v, &arrives);
+        shadow_arrival arrival;
+        const lmp_vec3 d = shadow_around_draw(&around, step(i / STEPS), step(i % STEPS), &arrival);
+        const lmp_rgb arrives = arrives_by(&arrival);
         CHECK_WITHIN(fabsf(d.x * d.x + d.y * d.y + d.z * d.z - 1), 1e-6f);
         const int texel = texel_at(d);
         const float *here = rgb[texel];
@@ -94,18 +109,16 @@ static void directions_bring_what_their_texels_have(void **state) {
 static void a_direction_has_the_radiance_of_its_texel(void **state) {
     (void)state;
     shadow_around around;
-    double all = 0;
     color();
-    for (int i = 0; i < TEXELS; i++)
-        all += (double)(rgb[i][0] + rgb[i][1] + rgb[i][2]) / 3 * solid_angle(i / WIDTH);
+    const double all = all_light();
     assert_true(shadow_around_create(&sky, &around));
     for (int i = 0; i < 1000; i++) {
-        float density;
         const lmp_vec3 d = check_random_direction();
         const float *here = rgb[texel_at(d)];
-        const lmp_rgb radiance = shadow_around_look(&around, d, &density);
-        assert_true(radiance.r == here[0] && radiance.g == here[1] && radiance.b == here[2]);
-        CHECK_WITHIN(fabs((double)density * all - (double)(here[0] + here[1] + here[2]) / 3), 1e-5);
+        const shadow_arrival a = shadow_around_look(&around, d);
+        assert_true(a.radiance.r == here[0] && a.radiance.g == here[1] && a.radiance.b == here[2]);
+        CHECK_WITHIN(fabs((double)a.density * all - (double)(here[0] + here[1] + here[2]) / 3),
+                     1e-5);
     }
     shadow_around_free(&around);
 }
@@ -147,10 +160,10 @@ static void directions_toward_a_surface_bring_its_irradiance(void **state) {
         shadow_set_lane(&points.mirror, 0, (lmp_vec3) { 0, -0.6f, 0.8f });
         shadow_set_lane(&points.coat_mirror, 0, (lmp_vec3) { 1, 0, 0 });
         for (int i = 0; i < STEPS * STEPS; i++) {
-            const float u = ((float)(i / STEPS) + 0.5f) / STEPS,
-                        v = ((float)(i % STEPS) + 0.5f) / STEPS;
-            lmp_rgb arrives;
-            const lmp_vec3 d = shadow_draw_toward(&around, &points, 0, u, v, &arrives);
+            shadow_arrival arrival;
+            const lmp_vec3 d =
+                shadow_draw_toward(&around, &points, 0, step(i / STEPS), step(i % STEPS), &arrival);
+            const lmp_rgb arrives = arrives_by(&arrival);
             CHECK_WITHIN(fabsf(d.x * d.x + d.y * d.y + d.z * d.z - 1), 1e-5f);
             sum += (double)arrives.r * fmax((double)(d.x * n.x + d.y * n.y + d.z * n.z), 0);
         }

@@ -210,6 +210,18 @@ static void the_studio_shines_where_what_glows_lights_little(void **state) {
     assert_string_equal(environment_choose(&none, &under), "studio");
     const scene lamp = glowing_scene(-1, 0); /* no mesh, but a light that somebody put there */
     assert_string_equal(environment_choose(&none, &lamp), "none");
+    /* and has the exposure of the studio alone, however it is chosen, but not beside a lamp */
+    const char *const names[] = { NULL, "studio" };
+    for (int i = 0; i < 2; i++) {
+        const environment_options options = { .name = names[i], .strength = 1 };
+        const scene dark = glowing_scene(-1, 1);
+        environment e;
+        cli_error error;
+        assert_true(environment_open(&options, &dark, &e, &error));
+        assert_true(e.studio && environment_exposure(&e, 1) > 0 &&
+                    environment_exposure(&e, 2) <= 0);
+        environment_free(&e);
+    }
 }
 
 static void the_studio_shines_where_nothing_else_does(void **state) {

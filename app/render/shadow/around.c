@@ -73,32 +73,35 @@ static int find(const double *sums, int count, double *u) {
     return low;
 }
 
-lmp_vec3 shadow_around_draw(const shadow_around *around, float u, float v, lmp_rgb *arrives) {
+static shadow_arrival arrival_of(const shadow_around *around, int row, int column) {
+    const image *map = &around->source->light;
+    const float *rgb = map->rgb + 3 * ((size_t)row * (size_t)map->width + (size_t)column);
+    return (shadow_arrival) { rgb_load(rgb),
+                              (float)(brightness_of(rgb) / around->rows[map->height - 1]) };
+}
+
+lmp_vec3 shadow_around_draw(const shadow_around *around, float u, float v,
+                            shadow_arrival *arrival) {
     const image *map = &around->source->light;
     const size_t width = (size_t)map->width;
     double down = (double)u, across = (double)v;
     const int row = find(around->rows, map->height, &down);
     const int column = find(around->columns + (size_t)row * width, map->width, &across);
-    const float *rgb = map->rgb + 3 * ((size_t)row * width + (size_t)column);
     const double top = around->cosines[row], bottom = around->cosines[row + 1];
     const double cosine = top + (bottom - top) * down;
     const double sine = sqrt(fmax((1 - cosine) * (1 + cosine), 0));
     const double turns = (column + across) / map->width - 0.5;
     const double azimuth = 2 * (double)PI * turns + (double)around->source->azimuth;
-    const float scale = (float)(around->rows[map->height - 1] / brightness_of(rgb));
-    *arrives = rgb_scale(rgb_load(rgb), scale);
+    *arrival = arrival_of(around, row, column);
     return vec((float)(sine * cos(azimuth)), (float)cosine, (float)(sine * sin(azimuth)));
 }
 
-lmp_rgb shadow_around_look(const shadow_around *around, lmp_vec3 direction, float *density) {
+shadow_arrival shadow_around_look(const shadow_around *around, lmp_vec3 direction) {
     const image *map = &around->source->light;
     float across, down;
     environment_place(around->source, (float[3]) { direction.x, direction.y, direction.z }, &across,
                       &down);
     const int column = (int)(across * (float)map->width), row = (int)(down * (float)map->height);
-    const float *rgb =
-        map->rgb + 3 * ((size_t)(row < map->height ? row : map->height - 1) * (size_t)map->width +
-                        (size_t)(column < map->width ? column : map->width - 1));
-    *density = (float)(brightness_of(rgb) / around->rows[map->height - 1]);
-    return rgb_load(rgb);
+    return arrival_of(around, row < map->height ? row : map->height - 1,
+                      column < map->width ? column : map->width - 1);
 }

@@ -20,11 +20,16 @@ void shadow_around_free(shadow_around *around);
 /* Whether any light comes from it. */
 bool shadow_around_shines(const shadow_around *around);
 
-/* The direction for two uniform numbers, drawn by brightness alone; *arrives is its radiance over
- * its density. */
-lmp_vec3 shadow_around_draw(const shadow_around *around, float u, float v, lmp_rgb *arrives);
+/* Radiance from a direction, and the density with which shadow_around_draw draws it. */
+typedef struct shadow_arrival {
+    lmp_rgb radiance;
+    float density;
+} shadow_arrival;
 
-/* The radiance from a unit direction, and the density with which shadow_around_draw draws it. */
-lmp_rgb shadow_around_look(const shadow_around *around, lmp_vec3 direction, float *density);
+/* The direction for two uniform numbers, drawn by brightness alone, and what arrives from there. */
+lmp_vec3 shadow_around_draw(const shadow_around *around, float u, float v, shadow_arrival *arrival);
+
+/* What arrives from a unit direction. */
+shadow_arrival shadow_around_look(const shadow_around *around, lmp_vec3 direction);
 
 #endif

@@ -2,7 +2,7 @@
 #include "app/render/shadow/source.h"
 
 #include "app/render/shadow/toward.h"
-#include "app/scene/vector.h"
+#include "app/render/shadow/turn.h"
 #include "app/trace/wide.h"
 
 /* --- the sources ------------------------------------------------------------------------------ */
@@ -238,21 +238,13 @@ static void see(const source_lanes *lanes, const shadow_vectors *positions, seen
     }
 }
 
-/* Off the axis by the part u of the cap, the part v of a turn around it: in an orthonormal basis
- * without branches at the poles (Duff et al. 2017). */
+/* Off the axis by the part u of the cap, the part v of a turn around it. */
 static void leave_axis(const seen_lanes *seen, const shadow_lanes u, const shadow_lanes v,
                        shadow_vectors *direction) {
-    for (int i = 0; i < SHADOW_LANES; i++) {
-        const float t = u[i] * seen->one_minus_cos[i], off = sqrtf(t * (2 - t));
-        const float x = seen->axis.of[0][i], y = seen->axis.of[1][i], z = seen->axis.of[2][i];
-        const float sign = copysignf(1, z), a = -1 / (sign + z), b = x * y * a;
-        float sine, cosine;
-        shadow_sine_cosine(v[i], &sine, &cosine);
-        const float across = off * cosine, along = off * sine;
-        direction->of[0][i] = x * (1 - t) + (1 + sign * x * x * a) * across + b * along;
-        direction->of[1][i] = y * (1 - t) + sign * b * across + (sign + y * y * a) * along;
-        direction->of[2][i] = z * (1 - t) - sign * x * across - y * along;
-    }
+    for (int i = 0; i < SHADOW_LANES; i++)
+        shadow_set_lane(
+            direction, i,
+            shadow_leave(shadow_lane(&seen->axis, i), u[i] * seen->one_minus_cos[i], v[i]));
 }
 
 /* To the near side of a sphere, from inside it to the far one. */
@@ -299,10 +291,12 @@ static void draw_point(const shadow_source *source, const seen_lanes *seen, int 
 
 static void draw_around(const shadow_source *source, const shadow_points *points, float u, float v,
                         int lane, shadow_samples *samples) {
-    lmp_rgb arrives;
+    shadow_arrival arrival;
     shadow_set_lane(&samples->direction, lane,
-                    points ? shadow_draw_toward(source->around, points, lane, u, v, &arrives)
-                           : shadow_around_draw(source->around, u, v, &arrives));
+                    points ? shadow_draw_toward(source->around, points, lane, u, v, &arrival)
+                           : shadow_around_draw(source->around, u, v, &arrival));
+    const lmp_rgb arrives =
+        rgb_scale(arrival.radiance, arrival.density > 0 ? 1 / arrival.density : 0);
     shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
     samples->length[lane] = INFINITY;
     samples->size[lane] = 1;

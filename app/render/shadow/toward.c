@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/shadow/toward.h"
 
+#include "app/render/shadow/turn.h"
+
 /* Of all directions, those drawn by brightness. */
 static const float by_brightness = 0.4f;
 
@@ -17,18 +19,6 @@ static mixture mixture_of(const shadow_points *p, int lane) {
     return (mixture) { sum > 0 ? by_brightness : 1, scale * diffuse, scale * lobe, scale * coat };
 }
 
-/* A unit direction off a unit axis by 1 - cosine t, and by the part v of a turn around it. */
-static lmp_vec3 leave(lmp_vec3 axis, float t, float v) {
-    const lmp_vec3 other = fabsf(axis.x) < 0.5f ? vec(1, 0, 0) : vec(0, 1, 0);
-    const lmp_vec3 right = vec_normalize(vec_cross(other, axis), other);
-    const lmp_vec3 up = vec_cross(axis, right);
-    const float off = sqrtf(t * (2 - t));
-    float sine, cosine;
-    shadow_sine_cosine(v, &sine, &cosine);
-    return vec_add(vec_scale(axis, 1 - t),
-                   vec_add(vec_scale(right, off * cosine), vec_scale(up, off * sine)));
-}
-
 static float cosine_density(lmp_vec3 normal, lmp_vec3 w) {
     const float along = vec_dot(normal, w);
     return along > 0 ? along / PI : 0;
@@ -42,43 +32,42 @@ static float lobe_density(lmp_vec3 axis, float a2, lmp_vec3 w) {
 }
 
 static lmp_vec3 draw_lobe(lmp_vec3 axis, float a2, float u, float v) {
-    return leave(axis, 2 * u * a2 / (1 + a2 - u), v);
+    return shadow_leave(axis, 2 * u * a2 / (1 + a2 - u), v);
 }
 
 static lmp_vec3 draw_cosine(lmp_vec3 normal, float u, float v) {
-    return leave(normal, 1 - sqrtf(1 - u), v);
+    return shadow_leave(normal, 1 - sqrtf(1 - u), v);
 }
 
 /* u falls on one of the parts, within which it is uniform again. */
 static lmp_vec3 draw(const mixture *part, const shadow_around *around, const shadow_points *p,
-                     int lane, float u, float v) {
-    lmp_rgb unused;
+                     int lane, float u, float v, shadow_arrival *arrival) {
+    lmp_vec3 w;
     if (u < part->bright)
-        return shadow_around_draw(around, u / part->bright, v, &unused);
+        return shadow_around_draw(around, u / part->bright, v, arrival);
     u -= part->bright;
     if (u < part->diffuse)
-        return draw_cosine(shadow_lane(&p->normal, lane), u / part->diffuse, v);
-    u -= part->diffuse;
-    if (u < part->lobe || !(part->coat > 0))
-        return draw_lobe(shadow_lane(&p->mirror, lane), p->alpha2[lane], fminf(u / part->lobe, 1),
-                         v);
-    u -= part->lobe;
-    return draw_lobe(shadow_lane(&p->coat_mirror, lane), p->coat_alpha2[lane],
-                     fminf(u / part->coat, 1), v);
+        w = draw_cosine(shadow_lane(&p->normal, lane), u / part->diffuse, v);
+    else if (u - part->diffuse < part->lobe || !(part->coat > 0))
+        w = draw_lobe(shadow_lane(&p->mirror, lane), p->alpha2[lane],
+                      fminf((u - part->diffuse) / part->lobe, 1), v);
+    else
+        w = draw_lobe(shadow_lane(&p->coat_mirror, lane), p->coat_alpha2[lane],
+                      fminf((u - part->diffuse - part->lobe) / part->coat, 1), v);
+    *arrival = shadow_around_look(around, w);
+    return w;
 }
 
 lmp_vec3 shadow_draw_toward(const shadow_around *around, const shadow_points *p, int lane, float u,
-                            float v, lmp_rgb *arrives) {
+                            float v, shadow_arrival *arrival) {
     const mixture part = mixture_of(p, lane);
-    const lmp_vec3 w = draw(&part, around, p, lane, u, v);
-    float density;
-    const lmp_rgb radiance = shadow_around_look(around, w, &density);
-    density *= part.bright;
+    const lmp_vec3 w = draw(&part, around, p, lane, u, v, arrival);
+    float density = part.bright * arrival->density;
     density += part.diffuse * cosine_density(shadow_lane(&p->normal, lane), w);
     density += part.lobe * lobe_density(shadow_lane(&p->mirror, lane), p->alpha2[lane], w);
     if (part.coat > 0)
         density +=
             part.coat * lobe_density(shadow_lane(&p->coat_mirror, lane), p->coat_alpha2[lane], w);
-    *arrives = rgb_scale(radiance, density > 0 ? 1 / density : 0);
+    arrival->density = density;
     return w;
 }
