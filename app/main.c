@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The program: finds the command, runs it, and makes sure that what it printed arrived. */
+#include "app/base/cli.h"
 #include "app/command/command.h"
 
 #include <lampion/base.h>
@@ -19,13 +20,13 @@ static int print_help(void) {
         printf("  %-12s%s\n", (*command)->name, (*command)->summary);
     printf("\nlampion COMMAND --help shows a command's options and examples;"
            " lampion --version the version.\n");
-    return CLI_OK;
+    return BASE_OK;
 }
 
 static int print_version(void) {
     const uint32_t version = lmp_version();
     printf("lampion %u.%u.%u\n", version >> 16, version >> 8 & 0xFF, version & 0xFF);
-    return CLI_OK;
+    return BASE_OK;
 }
 
 static int run_command(int argc, char **argv) {
@@ -46,8 +47,8 @@ static int run(int argc, char **argv) {
     return command ? command_print_help(command, "--help") : command_unknown(argv[2]);
 }
 
-/* A file opened later must not become stdout or stderr because the caller closed those. Opened for
- * reading, so that printing to a closed stdout still fails. */
+/* Prevents a file opened later from becoming stdout or stderr because the caller closed those. The
+ * descriptors are opened for reading, so that printing to a closed stdout still fails. */
 static void hold_standard_descriptors(void) {
     int descriptor;
     do
@@ -62,29 +63,30 @@ static bool reader_is_gone(void) {
     return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
 }
 
-/* A reader that has gone away (`| head`) is no news; a full disk is. */
+/* Closes stdout and reports errors. A reader that has gone away (`| head`) is not reported; a full
+ * disk is. */
 static int close_output(int status) {
     const bool failed = ferror(stdout) != 0, gone = reader_is_gone();
-    /* stdio forgets why it failed: another write does for the same reason */
+    /* stdio loses the reason of a failure: another write fails for the same reason */
     const int reason = failed && write(STDOUT_FILENO, "\n", 1) < 0 ? errno : 0;
     errno = 0;
     if (fclose(stdout) == 0 && !failed)
         return status;
     errno = reason ? reason : errno;
     if (!gone && errno != EPIPE) {
-        cli_error error;
-        cli_fail(&error, "standard output", "cannot write%s%s", errno ? ": " : "",
-                 errno ? strerror(errno) : "");
-        cli_report(&error);
+        base_error error;
+        base_fail(&error, "standard output", "cannot write%s%s", errno ? ": " : "",
+                  errno ? strerror(errno) : "");
+        base_report(&error);
     }
-    return status == CLI_OK ? CLI_FAILURE : status;
+    return status == BASE_OK ? BASE_FAILURE : status;
 }
 
 int main(int argc, char **argv) {
     hold_standard_descriptors();
-    /* the calls that fail say so: a reader that is gone, a file at the limit of its size */
+    /* the calls that fail report a reader that is gone, or a file at the limit of its size */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
-    signal(SIGCHLD, SIG_DFL); /* inherited, it may make waiting for a child fail */
+    signal(SIGCHLD, SIG_DFL); /* if inherited, it may make waiting for a child fail */
     return close_output(run(argc, argv));
 }

@@ -1,6 +1,5 @@
-# What `cmake --install` puts where: library, headers, shaders and program, found again through
-# find_package(lampion) or pkg-config, wherever the tree is moved to. The components are the Debian
-# packages: library, development, documentation, tools.
+# Installs library, headers, shaders and program, to be found through find_package(lampion) or pkg-config wherever the
+# tree is moved. The components are the Debian packages: library, development, documentation, tools.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS ${lampion_libraries} EXPORT lampionTargets
@@ -26,7 +25,7 @@ install(FILES ${PROJECT_BINARY_DIR}/lampionConfig.cmake
 
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
   BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig OUTPUT_VARIABLE pc_prefix)
-# A static library cannot name what it needs itself.
+# A static library cannot state its own dependencies.
 if(NOT BUILD_SHARED_LIBS AND NOT LAMPION_BOTH)
   set(pc_libs -lm)
 endif()

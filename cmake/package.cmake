@@ -1,4 +1,4 @@
-# The Debian packages liblampion0.1, liblampion-dev, liblampion-doc and lampion, made by `cpack`. Nothing in them
+# The Debian packages liblampionVERSION, liblampion-dev, liblampion-doc and lampion, made by `cpack`. Nothing in them
 # depends on where or when they are made: SOURCE_DATE_EPOCH is the time of every file.
 if(CPACK_TEMPORARY_INSTALL_DIRECTORY) # read again by cpack, before it makes archives of what it has installed
   execute_process(COMMAND find ${CPACK_TEMPORARY_INSTALL_DIRECTORY} -exec touch -h -d @$ENV{SOURCE_DATE_EPOCH} {} +
@@ -54,12 +54,12 @@ without a network.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME lampion)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libegl1, libgl1, libgl1-mesa-dri") # opened while running
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libassimp5, libegl1, libgl1, libgl1-mesa-dri, libglfw3, libpangocairo-1.0-0") # opened while running
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION
   "${about}\n\nThis is the program, which renders \
 glTF and OBJ scenes with or without a GPU.")
 
-# The documents, by pandoc.
+# The documents need pandoc.
 set(documents ${PROJECT_BINARY_DIR}/documents)
 file(GLOB pages CONFIGURE_DEPENDS *.md docs/*.md docs/site/* include/lampion/*.h)
 add_custom_command(OUTPUT ${documents}/lampion-formats.5.gz
@@ -73,7 +73,7 @@ install(DIRECTORY ${documents}/html DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lib
 install(FILES ${documents}/lampion-formats.5.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man5
   COMPONENT tools)
 
-# What Debian wants of every package.
+# Debian requires these of every package.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
 file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
 file(WRITE ${PROJECT_BINARY_DIR}/debian/changelog.Debian

@@ -7,7 +7,7 @@
 # In HLSL the columns of a matrix are its rows: they are made, indexed and read alike, and the products
 # exchange their sides.
 
-# word(LINE, FROM, TO): whole words.
+# word(LINE, FROM, TO): replaces whole words.
 function word(line, from, to,    done) {
     done = ""
     while (match(line, "(^|[^A-Za-z0-9_])" from "($|[^A-Za-z0-9_])")) {
@@ -31,14 +31,14 @@ function casts(line, type,    done) {
     return done line
 }
 
-# Parameters that are written to are references in Metal, and arrays are pointers.
+# Output parameters are references in Metal, and arrays are pointers.
 function references(line,    done, before, parameter, after, part) {
     done = ""
-    while (match(line, "((in)?out [a-zA-Z_0-9]+ [a-zA-Z_0-9]+(\\[[A-Z_]+\\])?|vec4 [a-z]+\\[3\\])[,)]")) {
+    while (match(line, "(in [a-zA-Z_0-9]+ [a-zA-Z_0-9]+\\[[A-Z_]+\\]|(in)?out [a-zA-Z_0-9]+ [a-zA-Z_0-9]+(\\[[A-Z_]+\\])?|vec4 [a-z]+\\[3\\])[,)]")) {
         before = substr(line, 1, RSTART - 1)
         parameter = substr(line, RSTART, RLENGTH - 1)
         after = substr(line, RSTART + RLENGTH - 1)
-        if (!sub("^(in)?out ", "thread ", parameter))
+        if (!sub("^(in|out|inout) ", "thread ", parameter))
             parameter = "constant " parameter
         split(parameter, part, /[ \[]/)
         done = done before part[1] " " part[2] " " (part[4] ? "*" : "&") part[3]
@@ -67,6 +67,8 @@ function translate(line,    name) {
         line = word(word(line, "mix", "lerp"), "fract", "frac")
         line = word(line, "floatBitsToInt", "asint")
     } else {
+        if (line ~ /^[a-z0-9]+ lmp_[a-z_]+\(.*\);$/) # members of a struct need no declaration before
+            return ""
         line = references(line)
         line = word(line, "floatBitsToInt", "as_type<int>")
     }
@@ -74,7 +76,7 @@ function translate(line,    name) {
     return word(word(line, "ivec2", "int2"), "mat3", "float3x3")
 }
 
-# The constructor of a struct, as a function.
+# Returns the constructor of a struct, as a function.
 function maker(name, members, count,    i, line, body) {
     line = body = ""
     for (i = 1; i <= count; i++) {
@@ -96,7 +98,7 @@ function add_members(line,    names, k, n, type) {
         members[++count] = type " " names[k]
 }
 
-# All structs are known before the first line is written.
+# All structs must be known before the first line is written.
 FNR == 1 {
     files[++file_count] = FILENAME
 }
@@ -108,7 +110,7 @@ FNR == 1 {
     constructors[$2] = "lmp_make" substr($2, 4)
 }
 
-# The first line after i that shows GLSL no more, or i + 1.
+# Returns the first line after i that is not for GLSL alone, or i + 1.
 function skip(file, i,    line) {
     line = lines[file, i + 1]
     if (line ~ /^ \* GLSL 4\.50, GLSL for Vulkan/)

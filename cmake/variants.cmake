@@ -1,8 +1,8 @@
-# The shaders that are installed, and their variants in HLSL and Metal, made by awk, which every Unix
-# has: build/variants/{hlsl,metal}.
+# Installs the shaders and their variants in HLSL and Metal, which awk, present on every Unix, makes in
+# build/variants/{hlsl,metal}.
 set(lampion_shaders lampion.glsl coefficients.glsl preintegrated_lookup.h preintegrated_lobe.glsl
-  preintegrated_brdf.glsl probe.glsl ggx.glsl coat.glsl)
-list(TRANSFORM lampion_shaders PREPEND ${PROJECT_SOURCE_DIR}/shaders/)
+  preintegrated_brdf.glsl probe.glsl ggx.glsl coat.glsl area.glsl)
+list(TRANSFORM lampion_shaders PREPEND ${PROJECT_SOURCE_DIR}/shaders/lampion/)
 set(lampion_shader_folder ${CMAKE_INSTALL_DATADIR}/lampion/shaders)
 install(FILES ${lampion_shaders} DESTINATION ${lampion_shader_folder} COMPONENT development)
 

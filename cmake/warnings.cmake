@@ -1,4 +1,4 @@
-# lampion_flags: what every target of this tree is compiled with.
+# lampion_flags: the flags that every target of this tree is compiled with.
 add_library(lampion_flags INTERFACE)
 target_compile_options(lampion_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-conversion
@@ -8,7 +8,7 @@ target_compile_options(lampion_flags INTERFACE
 if(LAMPION_WERROR)
   target_compile_options(lampion_flags INTERFACE -Werror)
 endif()
-# By the letter of C11 gcc computes floats as doubles for s390x, which rounds twice: other bits than elsewhere.
+# By the letter of C11 gcc computes floats as doubles for s390x, which rounds twice and gives other bits than elsewhere.
 include(CheckCSourceCompiles)
 check_c_source_compiles("
   #ifndef __s390__
@@ -18,8 +18,8 @@ check_c_source_compiles("
 if(LAMPION_FOR_s390 AND CMAKE_C_COMPILER_ID STREQUAL GNU)
   target_compile_options(lampion_flags INTERFACE -fexcess-precision=fast)
 endif()
-# What Debian hardens its packages with (dpkg-buildflags, hardening=+all), and shadow stacks: the program
-# opens files that others made. Sanitizers and debuggers have their own ways, and other systems' C libraries lack
+# Hardens the program, which opens files that others made, as Debian hardens its packages (dpkg-buildflags,
+# hardening=+all), with shadow stacks. Sanitizers and debuggers have their own ways, and other systems' C libraries lack
 # what hardened code calls: an archive for Windows would ask its users for __stack_chk_fail.
 include(CheckCCompilerFlag)
 check_c_compiler_flag(-fcf-protection LAMPION_HAS_CF_PROTECTION)
@@ -41,6 +41,6 @@ if(LAMPION_COVERAGE)
   target_link_options(lampion_flags INTERFACE --coverage)
 endif()
 if(LAMPION_FUZZ)
-  # Instrumented loops are not vectorized, which simd pragmas would have said.
+  # Instrumented loops are not vectorized, although simd pragmas ask for it.
   target_compile_options(lampion_flags INTERFACE -fsanitize=fuzzer-no-link -Wno-pass-failed)
 endif()

@@ -27,7 +27,7 @@ static lmp_brdf_table *store_and_load(const lmp_brdf_table *table, const char *p
     lmp_parse_error error = { .text = "out of memory" };
     FILE *file = fopen(path, "w+b");
     if (bytes && file) {
-        lmp_brdf_table_write(table, bytes);
+        lmp_brdf_table_write(table, lmp_brdf_table_size(table), bytes);
         fwrite(bytes, 1, size, file);
         rewind(file);
         const size_t got = fread(bytes, 1, size, file);
@@ -56,7 +56,7 @@ int main(int argc, char **argv) {
     puts("degrees  reflects  its series");
     for (int view = 0; view < info.views; view += 16) {
         lmp_rgb exact, series;
-        lmp_brdf_table_albedo(table, view, 0, &exact, &series);
+        lmp_brdf_table_find_albedo(table, view, 0, &exact, &series);
         printf("%7.1f  %8.3f  %10.3f\n", (double)(info.theta_step * (float)view) * 57.29578,
                (double)exact.g, (double)series.g);
     }

@@ -18,7 +18,7 @@ int main(void) {
                                   .view = lmp_vec3_array_same(&view),
                                   .material = &clay };
     lmp_rgb color[3];
-    lmp_shade_n(NULL, &ground, 3, lanterns, 2, 0, &color[0].r);
+    lmp_shade_n(NULL, &ground, 3, lanterns, 2, lmp_rgb_array_of(color));
     for (int i = 0; i < 3; i++)
         printf("point %d reflects %.3f %.3f %.3f\n", i, (double)color[i].r, (double)color[i].g,
                (double)color[i].b);

@@ -16,7 +16,7 @@
 
 enum { LIGHTS = 6, WIDTH = 960, HEIGHT = 540 };
 
-/* What lampion.glsl wants to know of us: bands, window, and where the lights are. */
+/* Defines what lampion.glsl needs: bands, window, and where the lights are. */
 static const char head[] = "#version 450 core\n"
                            "#define LMP_BANDS 8\n"
                            "#define LMP_WINDOW LMP_WINDOW_HANNING\n"
@@ -25,7 +25,7 @@ static const char head[] = "#version 450 core\n"
                            "#define LMP_LIGHT_SPHERE(i) lights[2 * (i)]\n"
                            "#define LMP_LIGHT_RADIANCE(i) lights[2 * (i) + 1].rgb\n";
 
-/* One triangle that covers the window. */
+/* A single triangle that covers the window. */
 static const char vertex_shader[] =
     "#version 450 core\n"
     "uniform float aspect;\n"
@@ -73,7 +73,7 @@ static GLuint build_program(const char *lampion, const char *scene) {
     return program;
 }
 
-/* Lanterns on a ring that bobs: center and radius, then radiance. */
+/* Moves lanterns on a ring that bobs: each has its center and radius, then its radiance. */
 static void move_lights(float seconds, float lights[LIGHTS][2][4]) {
     for (int i = 0; i < LIGHTS; i++) {
         const float angle = 0.5f * seconds + 6.2832f * (float)i / LIGHTS;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* lanterns.frag - a ray a pixel to a floor and a row of balls, shaded by lampion.glsl. lanterns.c
- * puts a #version line and lampion.glsl's text before it. */
+/* lanterns.frag - casts one ray per pixel to a floor and a row of balls, shaded by lampion.glsl.
+ * lanterns.c puts a #version line and lampion.glsl's text before it. */
 const int BALLS = 5;
 
 in vec2 at; /* -1 … 1 across the window's height */
 out vec4 color;
 
-/* Distance along the ray to a sphere, or 1e9. */
+/* Returns the distance along the ray to a sphere, or 1e9. */
 float hit_sphere(vec3 eye, vec3 ray, vec4 sphere) {
     vec3 v = eye - sphere.xyz;
     float b = dot(v, ray), c = dot(v, v) - sphere.w * sphere.w;

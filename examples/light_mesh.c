@@ -15,7 +15,8 @@ typedef struct vertex {
     lmp_rgb color;
 } vertex;
 
-/* The half of a unit sphere that is seen along -z, one vertex a character; others keep normal 0. */
+/* Makes the half of a unit sphere that is seen along -z, one vertex per character; other vertices
+ * keep normal 0. */
 static void make_sphere(vertex *vertices) {
     for (int i = 0; i < VERTICES; i++) {
         const float x = ((float)(i % COLUMNS) + 0.5f) / (COLUMNS / 2) - 1.0f;
@@ -38,10 +39,11 @@ static void light(vertex *vertices, const lmp_light *lights, size_t light_count)
         .position = { &vertices->position.x, &vertices->position.y, &vertices->position.z, stride },
         .normal = { &vertices->normal.x, &vertices->normal.y, &vertices->normal.z, stride },
         .view = lmp_vec3_array_same(&viewer),
-        .material = &clay, /* stride 0: one for all */
+        .material = &clay, /* stride 0: one material for all */
     };
     const lmp_shade_settings settings = { .bands = 16, .window = LMP_WINDOW_HANNING };
-    lmp_shade_n(&settings, &surfaces, VERTICES, lights, light_count, stride, &vertices->color.r);
+    lmp_shade_n(&settings, &surfaces, VERTICES, lights, light_count,
+                (lmp_rgb_array) { &vertices->color.r, stride });
 }
 
 int main(void) {

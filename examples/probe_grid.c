@@ -21,18 +21,18 @@ static void move(lmp_light *lights, float seconds) {
     }
 }
 
-/* All lights into all probes, in one call. */
+/* Sums all lights at all probes, in one call. */
 static void update(const lmp_light *lights) {
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_n(NULL, BANDS, &spheres, LIGHTS, lmp_vec3_array_of(positions), PROBES,
-                            LMP_SH_INTERLEAVED, 0, &probes[0][0][0]);
+    lmp_sphere_sum_n(NULL, BANDS, &spheres, LIGHTS, NULL, lmp_vec3_array_of(positions), PROBES,
+                     lmp_sh_interleaved(&probes[0][0][0], 0));
 }
 
-/* Irradiance on a surface: bilinear between the four probes around, and a dot product (paper
- * Eq. 4) with the cosine lobe around its normal. */
+/* Returns the irradiance on a surface: bilinear between the four probes around the point, each a
+ * dot product (paper Eq. 4) with the cosine lobe around the surface's normal. */
 static float irradiance(lmp_vec3 point, lmp_vec3 normal) {
     float lambda[BANDS], lobe[COEFFICIENTS], sum = 0;
-    lmp_lobe_diffuse(BANDS, lambda);
+    lmp_lobe_make_diffuse(BANDS, lambda);
     lmp_lobe_project(BANDS, lambda, normal, lobe);
     const int x = (int)point.x, z = (int)point.z;
     const float s = point.x - (float)x, t = point.z - (float)z;
@@ -53,7 +53,7 @@ int main(void) {
         positions[i] = (lmp_vec3) { (float)(i % NX), 1, (float)(i / NX) };
     const lmp_vec3 point = { 3.3f, 1, 2.6f }, up = { 0, 1, 0 };
     float lambda[BANDS];
-    lmp_lobe_diffuse(BANDS, lambda);
+    lmp_lobe_make_diffuse(BANDS, lambda);
 
     puts("seconds  from probes  exact");
     for (int frame = 0; frame <= 6; frame++) {

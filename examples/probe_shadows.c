@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* probe_shadows.c - a grid of light probes under a roof: rays of Embree tell how much of each light
- * comes to each probe, and the library projects what comes.
+/* probe_shadows.c - a grid of light probes under a roof: rays of Embree find how much of each light
+ * reaches each probe, and the library projects that.
  *
  *     cc probe_shadows.c $(pkg-config --cflags --libs lampion) -lembree3 -lm -o probe_shadows */
 #include <embree3/rtcore.h>
@@ -11,7 +11,7 @@
 
 enum { BANDS = 4, COEFFICIENTS = BANDS * BANDS, PROBES = 9, LIGHTS = 2, RAYS = 256 };
 
-/* A square of 2 x 2 at height 2. */
+/* A square roof of 2 x 2 at height 2. */
 static float corners[4][3] = { { -1, 2, -1 }, { 1, 2, -1 }, { 1, 2, 1 }, { -1, 2, 1 } };
 static unsigned triangles[2][3] = { { 0, 1, 2 }, { 0, 2, 3 } };
 
@@ -29,7 +29,7 @@ static RTCScene open_scene(RTCDevice device) {
     return scene;
 }
 
-/* Whether anything lies between a point and another. */
+/* Whether anything lies between two points. */
 static int is_hidden(RTCScene scene, lmp_vec3 from, lmp_vec3 to) {
     struct RTCIntersectContext context;
     struct RTCRay ray = { .org_x = from.x,
@@ -45,8 +45,8 @@ static int is_hidden(RTCScene scene, lmp_vec3 from, lmp_vec3 to) {
     return ray.tfar < 0;
 }
 
-/* The part of a light that a point sees: rays to a disk as large as the light, which faces the
- * point, spread over it in a spiral. */
+/* Returns the fraction of a light that a point sees, by rays to a disk as large as the light, which
+ * faces the point, spread over it in a spiral. */
 static float visibility_of(RTCScene scene, const lmp_light *light, lmp_vec3 point) {
     const lmp_vec3 c = light->position;
     const float x = c.x - point.x, y = c.y - point.y, z = c.z - point.z;
@@ -82,10 +82,9 @@ int main(void) {
     for (int i = 0; i < LIGHTS; i++)
         for (int p = 0; p < PROBES; p++)
             visibility[i][p] = visibility_of(scene, &lights[i], positions[p]);
-    lmp_sphere_accumulate_visible_n(NULL, BANDS, &spheres, LIGHTS, &visibility[0][0],
-                                    lmp_vec3_array_of(positions), PROBES, LMP_SH_INTERLEAVED, 0,
-                                    &probes[0][0][0]);
-    lmp_lobe_diffuse(BANDS, lambda);
+    lmp_sphere_sum_n(NULL, BANDS, &spheres, LIGHTS, &visibility[0][0], lmp_vec3_array_of(positions),
+                     PROBES, lmp_sh_interleaved(&probes[0][0][0], 0));
+    lmp_lobe_make_diffuse(BANDS, lambda);
     lmp_lobe_project(BANDS, lambda, (lmp_vec3) { 0, 1, 0 }, lobe);
     puts("   x  lamp above  lamp beside  irradiance");
     for (int p = 0; p < PROBES; p++)

@@ -12,10 +12,10 @@ typedef float probe[COLUMNS]; /* x, y, z, then red, green, blue of each color */
 
 typedef struct volume {
     probe *probes;
-    size_t count, counts[3]; /* of all; along x, which changes first, y and z */
+    size_t count, counts[3]; /* number of probes; and along x, which varies fastest, y and z */
 } volume;
 
-/* False at the end of the file. */
+/* Reads a probe; returns false at the end of the file. */
 static int read_probe(FILE *file, float *values) {
     for (int i = 0; i < COLUMNS; i++)
         if (fscanf(file, i == 0 ? "%f" : ",%f", &values[i]) != 1)
@@ -23,7 +23,7 @@ static int read_probe(FILE *file, float *values) {
     return 1;
 }
 
-/* How many probes there are before a coordinate changes. */
+/* Returns how many probes there are before a coordinate changes. */
 static size_t run_of(const volume *v, int axis) {
     size_t i = 1;
     while (i < v->count && v->probes[i][axis] == v->probes[0][axis])
@@ -55,7 +55,8 @@ static int read_volume(const char *path, volume *v) {
     return v->counts[0] > 1 && v->counts[1] > 1 && v->counts[2] > 1;
 }
 
-/* The cell that a coordinate lies in, and how far along; the last one for what is outside. */
+/* Finds the cell that a coordinate lies in, and the fraction along it; outside the grid, the
+ * nearest cell. */
 static size_t cell_of(const volume *v, int axis, float at, float *fraction) {
     const size_t last = v->counts[axis] - 1;
     const float first = v->probes[0][axis], end = v->probes[v->count - 1][axis];
@@ -85,7 +86,7 @@ static void interpolate(const volume *v, const float point[3], float values[3 * 
     }
 }
 
-/* Irradiance over pi of a channel, as Filament's shaders evaluate it. */
+/* Returns a channel's irradiance over pi, as Filament's shaders evaluate it. */
 static float reflected(const float *values, int channel, const float n[3]) {
     const float x = n[0], y = n[1], z = n[2];
     const float terms[COLORS] = { 1, y, z, x, x * y, y * z, 3 * z * z - 1, z * x, x * x - y * y };

@@ -8,7 +8,7 @@
  * Reads the binary PLY files of Kerbl et al. 2023 ("3D Gaussian Splatting"): a row of floats for
  * each splat. Its color seen along a direction is a sum of spherical harmonics in lampion's own
  * convention, f_dc the first band and f_rest the others, channel by channel. Positions, normals and
- * orientations rotate as usual; each color rotates by the matrices of lmp_sh_rotation. */
+ * orientations rotate as usual; each color rotates by the matrices of lmp_sh_make_rotation. */
 #include <lampion/lampion.h>
 
 #include <math.h>
@@ -18,11 +18,11 @@
 
 enum { PROPERTIES_MAX = 256, LINE_MAX_BYTES = 256, BANDS_MAX = 5 };
 
-/* Where a splat's numbers stand in its row of floats; -1 where the file has none. */
+/* Where a splat's numbers are in its row of floats; -1 where the file has none. */
 typedef struct layout {
     long splats;
     int properties;
-    int position, normal, quaternion; /* of the first of 3, 3 and 4 */
+    int position, normal, quaternion; /* of the first of 3, 3 and 4 numbers */
     int color, rest;                  /* of f_dc_0 and f_rest_0 */
     int rest_count;
 } layout;
@@ -80,7 +80,8 @@ static const char *read_header(FILE *in, FILE *out, layout *l) {
     return "the header does not end";
 }
 
-/* The bands of the colors: 3 (bands² - 1) numbers are beside f_dc. 0 if the count fits none. */
+/* Returns the bands of the colors, which have 3 (bands² - 1) numbers beside f_dc; 0 if the count
+ * fits none. */
 static int color_bands(const layout *l) {
     for (int bands = 1; bands <= BANDS_MAX; bands++)
         if (l->rest_count == 3 * (bands * bands - 1))
@@ -95,11 +96,11 @@ static rotation make_rotation(int bands, lmp_vec3 axis, float degrees) {
     const float length = sqrtf(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
     const float s = sinf(half) / length;
     rotation r = { .bands = bands, .quat = { axis.x * s, axis.y * s, axis.z * s, cosf(half) } };
-    lmp_sh_rotation(bands, r.quat, r.matrices);
+    lmp_sh_make_rotation(bands, r.quat, r.matrices);
     return r;
 }
 
-/* q v q*, for a unit quaternion: v + 2 u x (u x v + w v). */
+/* Rotates v by a unit quaternion, q v q*: v + 2 u x (u x v + w v). */
 static void rotate_vector(lmp_quat q, float v[3]) {
     const float a[3] = { q.y * v[2] - q.z * v[1] + q.w * v[0], q.z * v[0] - q.x * v[2] + q.w * v[1],
                          q.x * v[1] - q.y * v[0] + q.w * v[2] };
@@ -108,7 +109,7 @@ static void rotate_vector(lmp_quat q, float v[3]) {
     v[2] += 2 * (q.x * a[1] - q.y * a[0]);
 }
 
-/* The product of q and an orientation, which stands real part first. */
+/* Multiplies q with an orientation, which stores its real part first. */
 static void rotate_orientation(lmp_quat q, float o[4]) {
     const float w = o[0], x = o[1], y = o[2], z = o[3];
     o[0] = q.w * w - q.x * x - q.y * y - q.z * z;
@@ -117,7 +118,7 @@ static void rotate_orientation(lmp_quat q, float o[4]) {
     o[3] = q.w * z + q.x * y - q.y * x + q.z * w;
 }
 
-/* The first band is the same in every direction, so that the others rotate alone. */
+/* Rotates the bands past the first, which is the same in every direction. */
 static void rotate_color(const rotation *r, float *rest) {
     const size_t count = LMP_SH_COUNT(r->bands);
     for (int channel = 0; channel < 3; channel++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Files of paths: lights stay finite wherever they are moved. */
-#include "app/animation/animation.h"
+/* Animation files: lights stay finite wherever they are moved. */
+#include "app/scene/animation.h"
 #include "fuzz/file.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static scene world;
     static scene_light moved[SCENE_LIGHTS_MAX];
-    cli_error error;
+    base_error error;
     char path[64];
     animation *read = NULL;
     if (!world.block && !scene_load("builtin:ball", NULL, &world, &error))

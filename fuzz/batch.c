@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The batch functions: the same bits on every instruction set that there is, whatever the numbers,
- * and finite ones where the numbers are. */
+/* The batch functions: they give the same bits on every available instruction set, whatever the
+ * numbers, and finite results for numbers within their preconditions. */
 #include "fuzz/numbers.h"
 
 #include <lampion/cpu.h>
@@ -19,7 +19,7 @@ typedef struct batch_input {
     float sh[COUNT * VALUES], lambda[BANDS];
 } batch_input;
 
-/* What all of them give. */
+/* The results of all functions. */
 typedef struct batch_output {
     float eval[COUNT * VALUES], dots[COUNT], rotated[COUNT * VALUES];
     float projected[COUNT * VALUES], sum[3 * COUNT * VALUES], response[3 * COUNT];
@@ -37,7 +37,7 @@ static void take(fuzz_input *in, batch_input *b) {
                                      .radiance = { fabsf(fuzz_float(in, 1e-6f, 1e6f)), 1, 0.5f } };
     for (int i = 0; i < BANDS; i++)
         b->lambda[i] = fuzz_float(in, 1e-6f, 1e6f);
-    /* what is not said of the later ones repeats the first */
+    /* values that the input lacks repeat the first ones */
     for (size_t i = 0; i < COUNT; i++) {
         const bool first = i == 0 || in->left > 0;
         b->points[i] = first ? fuzz_vector(in, 1e-6f, 1e6f) : b->points[0];
@@ -62,16 +62,19 @@ static void run(const batch_input *b, batch_output *out) {
                                     .material = b->materials,
                                     .material_stride = sizeof *b->materials };
     memset(out, 0, sizeof *out);
-    lmp_sh_eval_n(b->bands, normals, b->count, b->layout, 0, out->eval);
-    lmp_sh_dot_n(b->bands, b->sh, out->eval, b->count, b->layout, 0, out->dots);
-    lmp_sh_rotation(b->bands, (lmp_quat) { 0.5f, -0.5f, 0.1f, 0.7f }, matrices);
-    lmp_sh_rotate_n(b->bands, matrices, b->sh, b->count, b->layout, 0, out->rotated);
-    lmp_sphere_project_all(b->bands, &spheres, 1, points, b->count, b->layout, 0, out->projected);
-    lmp_sphere_accumulate_n(NULL, b->bands, &spheres, LIGHTS, points, b->count, b->layout, 0,
-                            out->sum);
-    lmp_lobe_response_n(b->bands, b->lambda, normals, &spheres, LIGHTS, points, b->count, b->layout,
-                        0, out->response);
-    lmp_shade_n(&b->settings, &surfaces, b->count, b->lights, LIGHTS, 0, &out->shaded[0].r);
+    lmp_sh_eval_n(b->bands, normals, b->count, (lmp_sh_array) { out->eval, 0, b->layout });
+    lmp_sh_dot_n(b->bands, b->layout, 0, b->sh, out->eval, b->count, out->dots);
+    lmp_sh_make_rotation(b->bands, (lmp_quat) { 0.5f, -0.5f, 0.1f, 0.7f }, matrices);
+    lmp_sh_rotate_n(b->bands, matrices, b->sh, b->count,
+                    (lmp_sh_array) { out->rotated, 0, b->layout });
+    lmp_sphere_project_all_n(b->bands, &spheres, 1, points, b->count,
+                             (lmp_sh_array) { out->projected, 0, b->layout });
+    lmp_sphere_sum_n(NULL, b->bands, &spheres, LIGHTS, NULL, points, b->count,
+                     (lmp_sh_array) { out->sum, 0, b->layout });
+    lmp_lobe_response_n(b->bands, b->lambda, normals, &spheres, LIGHTS, points, b->count,
+                        (lmp_rgb_array) { out->response, 0 });
+    lmp_shade_n(&b->settings, &surfaces, b->count, b->lights, LIGHTS,
+                (lmp_rgb_array) { &out->shaded[0].r, 0 });
 }
 
 static void check_finite(const batch_output *out) {
@@ -85,12 +88,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static batch_output scalar, other;
     fuzz_input in = { data, size };
     take(&in, &b);
-    lmp_cpu_mask(LMP_CPU_SCALAR);
+    lmp_cpu_limit(LMP_CPU_SCALAR);
     run(&b, &scalar);
     check_finite(&scalar);
     for (unsigned flag = LMP_CPU_VECTOR; flag <= LMP_CPU_AVX512; flag <<= 1)
         if (lmp_cpu_flags() & flag) {
-            lmp_cpu_mask(flag);
+            lmp_cpu_limit(flag);
             run(&b, &other);
             fuzz_expect(memcmp(&scalar, &other, sizeof scalar) == 0);
         }

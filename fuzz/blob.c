@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Scene blobs as a broken importer might hand them back: a valid header, then anything. The first
- * bytes are the numbers of items. */
+/* Scene blobs as a faulty importer might return them: a valid header, then arbitrary bytes. The
+ * first bytes are the numbers of items. */
 #include "app/scene/blob.h"
 #include "fuzz/file.h"
 
@@ -24,7 +24,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const size_t room = header.size - sizeof header;
     memcpy(block + sizeof header, data, size < room ? size : room);
     scene world;
-    cli_error error;
+    base_error error;
     if (blob_validate(block, header.size, false, "input", &error) &&
         blob_open(block, header.size, "input", &world, &error))
         scene_free(&world);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* brdf.h - a reader of measured BRDFs: what it accepts reflects no negative light and no NaN. */
+/* brdf.h - the check of a reader of measured BRDFs: what it accepts reflects no negative light and
+ * no NaN. */
 #ifndef LAMPION_FUZZ_BRDF_H
 #define LAMPION_FUZZ_BRDF_H
 

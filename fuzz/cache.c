@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Entries of the cache: as files of any bytes, which are not believed, and as scenes that were
- * stored with any bytes, which are checked. The first byte tells which. */
-#include "app/scene/cache.h"
+/* Entries of the cache: files with arbitrary bytes, which are rejected, and scenes stored with
+ * arbitrary bytes, which are validated. The first byte tells which. */
+#include "app/scene/load/cache.h"
+#include "app/base/file_cache.h"
+#include "app/base/file_hash.h"
 #include "fuzz/file.h"
 
 #include <stdlib.h>

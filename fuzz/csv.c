@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of numbers, from memory as a stream; what is read prints and comes back the same. */
-#include "app/csv/csv.h"
+/* Tables of numbers, read from a stream in memory; what is read prints and reads back unchanged. */
+#include "app/base/csv.h"
 
 #include <stdlib.h>
 
@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     FILE *const stream = size > 0 ? fmemopen((void *)(uintptr_t)data, size, "rb") : NULL;
     if (!stream)
         return 0;
-    cli_error error;
+    base_error error;
     float row[3];
     if (csv_open_stream(&reader, stream, "input", "a,b,c", &error)) {
         while (csv_read_row(&reader, names, 3, row, &error) == CSV_ROW)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Meshes that Draco compressed: every corner and every number of what is decoded. */
-#include "app/scene/draco.h"
+/* Meshes that Draco compressed: reads every corner and every number of what is decoded. */
+#include "app/scene/gltf/draco.h"
 #include "fuzz/file.h"
 
 #include <stdlib.h>

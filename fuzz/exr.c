@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Images to be compared: .exr. An input that is no file describes one, so that the pixels behind
+/* Images for `compare`: .exr. An input that is not a file describes one, so that the pixels behind
  * the header and the deflated streams are reached. */
 #include "app/image/exr.h"
 #include "fuzz/numbers.h"
@@ -15,10 +15,10 @@ typedef struct exr_file {
 
 typedef struct exr_shape {
     int compression, width, height, left, top, channels, types[4], tile;
-    int chroma; /* 0: the channels are colors; else RY and BY are this many pixels apart */
+    int chroma; /* 0: the channels are colors; else the spacing of RY and BY in pixels */
 } exr_shape;
 
-/* Scan lines of a chunk by compression, none to DWAB. */
+/* Scan lines per chunk by compression, from none to DWAB. */
 static const int chunk_lines[] = { 1, 1, 1, 16, 32, 16, 32, 32, 32, 256 };
 
 static void add(exr_file *file, const void *data, size_t size) {
@@ -81,8 +81,7 @@ static void add_header(exr_file *file, const exr_shape *shape) {
     add(file, "", 1);
 }
 
-/* The data of a chunk of so many pixels from row y on: deflated, as they are, or fewer than there
- * should be. */
+/* Adds the data of a chunk of that size from row y on: deflated, uncompressed, or too short. */
 static void add_data(exr_file *file, fuzz_input *in, const exr_shape *shape, int wide, int tall,
                      int y) {
     static unsigned char unpacked[UNPACKED_MAX + 64], packed[2 * UNPACKED_MAX];
@@ -138,7 +137,7 @@ static void describe(exr_file *file, fuzz_input *in) {
                         .channels = fuzz_int(in, 0, 11) };
     shape.chroma = shape.channels / 4;
     shape.channels = shape.channels % 4 + 1;
-    if (shape.chroma == 2) { /* windows are of whole samples */
+    if (shape.chroma == 2) { /* windows consist of whole samples */
         shape.width += shape.width % 2;
         shape.height += shape.height % 2;
         shape.left *= 2;
@@ -165,7 +164,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         .path = "input", .data = file.bytes, .size = file.size, .pixels_max = 1 << 16
     };
     image pixels;
-    cli_error error;
+    base_error error;
     if (image_decode_exr(&source, &pixels, &error))
         image_free(&pixels);
     free(file.bytes);

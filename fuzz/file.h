@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* file.h - for readers that take a path: the input as a file in memory. */
+/* file.h - for readers that take a path: writes the input to a file in memory. */
 #ifndef LAMPION_FUZZ_FILE_H
 #define LAMPION_FUZZ_FILE_H
 
@@ -11,7 +11,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Writes the input to a file of this process with that ending; path receives its name. */
+/* Writes the input to a file of this process with that extension; path receives its name. */
 static inline bool fuzz_file_write(const uint8_t *data, size_t size, const char *ending,
                                    char path[64]) {
     snprintf(path, 64, "/dev/shm/lampion-fuzz-%ld%s", (long)getpid(), ending);

@@ -8,7 +8,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         .path = "input", .data = data, .size = size, .pixels_max = 1 << 22
     };
     image pixels;
-    cli_error error;
+    base_error error;
     if (image_decode_hdr(&source, &pixels, &error))
         image_free(&pixels);
     return 0;

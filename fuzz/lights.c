@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Lights files: all of a file's lights or none, finite and in range. */
+/* Lights files: either all lights of a file are read, finite and in range, or none. */
 #include "app/scene/scene.h"
 #include "fuzz/file.h"
 
@@ -13,11 +13,13 @@ static void check(const lmp_light *light) {
             abort();
     if (!(light->radius >= 0) || !isfinite(light->radius))
         abort();
+    if (scene_light_is_area(light) && !(scene_light_extent(light) > 0))
+        abort();
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static scene world;
-    cli_error error;
+    base_error error;
     char path[64];
     if (!world.block && !scene_load("builtin:ball", NULL, &world, &error))
         abort();

@@ -16,23 +16,23 @@ static void use(lmp_field *field) {
         const lmp_vec3 point = { origin.x + s * cell.x, origin.y + s * cell.y,
                                  origin.z + s * cell.z };
         if (fabsf(point.x) + fabsf(point.y) + fabsf(point.z) < 1e15f)
-            lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, sh);
-        (void)lmp_field_near(field, point, 0, NULL, NULL);
+            lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, lmp_sh_interleaved(sh, 0));
+        (void)lmp_field_find_near(field, point, 0, NULL, NULL);
     }
     if (info.light_count > 0)
-        lmp_field_move(NULL, field, &(size_t) { info.light_count - 1 }, &light, 1);
+        lmp_field_move_n(NULL, field, &(size_t) { info.light_count - 1 }, &light, 1);
     (void)lmp_field_add(NULL, field, &light);
     lmp_field_remove(NULL, field, 0);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     lmp_field *field;
-    lmp_result result = lmp_field_read(NULL, data, size, &field);
+    lmp_result result = lmp_field_read(NULL, data, size, NULL, &field);
     if (result == LMP_ERROR_CHECKSUM) {
         unsigned char *valid = fuzz_checksum(data, size);
         if (!valid)
             return 0;
-        result = lmp_field_read(NULL, valid, size, &field);
+        result = lmp_field_read(NULL, valid, size, NULL, &field);
         free(valid);
     }
     if (result == LMP_OK)

@@ -13,7 +13,7 @@ static void use(const lmp_preintegrated_lobe *lobe) {
             if (!isfinite(lmp_preintegrated_lobe_eval(lobe, exponents[e], points[i / 4],
                                                       2 * points[i % 4] - 1)))
                 abort();
-    /* The kernel has a reading of its own. */
+    /* The kernel has a lookup of its own. */
     const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED, .lobe = lobe };
     for (int e = 0; e < 6; e++) {
         const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = { 0.6f, 0, 0.8f } };
@@ -26,12 +26,12 @@ static void use(const lmp_preintegrated_lobe *lobe) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     lmp_preintegrated_lobe *lobe;
-    lmp_result result = lmp_preintegrated_lobe_read(NULL, data, size, &lobe);
+    lmp_result result = lmp_preintegrated_lobe_read(NULL, data, size, NULL, &lobe);
     if (result == LMP_ERROR_CHECKSUM) {
         unsigned char *valid = fuzz_checksum(data, size);
         if (!valid)
             return 0;
-        result = lmp_preintegrated_lobe_read(NULL, valid, size, &lobe);
+        result = lmp_preintegrated_lobe_read(NULL, valid, size, NULL, &lobe);
         free(valid);
     }
     if (result == LMP_OK)

@@ -8,7 +8,7 @@ static void use(const lmp_brdf_table *table) {
     if (!rgb)
         return;
     for (int i = 0; i < 4; i++)
-        lmp_brdf_table_view(table, (float)i / 3, (float)i - 1, rgb);
+        lmp_brdf_table_interpolate(table, (float)i / 3, (float)i - 1, rgb);
     free(rgb);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Buffer views that meshoptimizer compressed: four bytes say how, and the rest is the stream. */
-#include "app/scene/meshopt.h"
+#include "app/scene/gltf/meshopt.h"
 #include "fuzz/file.h"
 
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Numbers as text: what is read is what C reads of the whole text, decimal and finite, and nothing
- * else is; nothing behind it is looked at. */
-#include "app/cli/cli.h"
-#include "app/csv/csv.h"
-#include "app/scene/words.h"
+/* Numbers as text: they are read if and only if they are decimal and finite, with the value that C
+ * reads from the whole text; nothing after the text is read. */
+#include "app/base/number.h"
+#include "app/base/csv.h"
+#include "app/scene/load/words.h"
 #include "fuzz/numbers.h"
 
 #include <ctype.h>
@@ -16,7 +16,7 @@ static const char *skip_digits(const char *at, int *count) {
     return at;
 }
 
-/* [+-] digits [. digits] [e [+-] digits], with a digit before the e. */
+/* Whether a text is [+-] digits [. digits] [e [+-] digits], with a digit before the e. */
 static bool is_decimal(const char *at) {
     int digits = 0, exponent = 0;
     at += *at == '+' || *at == '-';
@@ -33,7 +33,7 @@ static bool is_decimal(const char *at) {
     return digits > 0 && *at == '\0';
 }
 
-/* A float that was read is written so that it comes back. */
+/* Checks that a float is written so that it reads back unchanged. */
 static void check_round_trip(float value) {
     char text[CSV_TEXT_MAX + 1];
     text[csv_format(value, text)] = '\0';
@@ -48,9 +48,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     memcpy(text, data, length);
     for (size_t i = 0; i < length; i++)
         text[i] = text[i] ? text[i] : '0';
-    text[length] = '7'; /* a digit that does not belong to it */
+    text[length] = '7'; /* a digit after the end of the text */
     text[length + 1] = '\0';
-    const bool read = cli_number(text, length, &value);
+    const bool read = number_read(text, length, &value);
     text[length] = '\0';
     const double expected = strtod(text, NULL);
     fuzz_expect(read == (is_decimal(text) && isfinite(expected)));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* numbers.h - for functions of numbers: arguments within their preconditions, from the input; past
- * its end all is 0. */
+/* numbers.h - for functions of numbers: takes arguments within their preconditions from the input;
+ * past its end everything is 0. */
 #ifndef LAMPION_FUZZ_NUMBERS_H
 #define LAMPION_FUZZ_NUMBERS_H
 
@@ -26,14 +26,14 @@ static inline void fuzz_take(fuzz_input *in, void *to, size_t size) {
     in->left -= taken;
 }
 
-/* first … last, which are less than 256 apart */
+/* Takes an integer in first … last, which are less than 256 apart. */
 static inline int fuzz_int(fuzz_input *in, int first, int last) {
     uint8_t byte;
     fuzz_take(in, &byte, 1);
     return first + byte % (last - first + 1);
 }
 
-/* Any bits that are a number whose magnitude is least … most; else 0. */
+/* Takes any float whose magnitude is in least … most, else 0. */
 static inline float fuzz_float(fuzz_input *in, float least, float most) {
     float x;
     fuzz_take(in, &x, sizeof x);
@@ -48,7 +48,7 @@ static inline lmp_vec3 fuzz_vector(fuzz_input *in, float least, float most) {
     return v;
 }
 
-/* Unit up to rounding; up where the input gives none. */
+/* Takes a direction, unit up to rounding; +z if the input gives none. */
 static inline lmp_vec3 fuzz_direction(fuzz_input *in) {
     const lmp_vec3 v = fuzz_vector(in, 1e-18f, 1e18f);
     const double x = (double)v.x, y = (double)v.y, z = (double)v.z;
@@ -58,7 +58,17 @@ static inline lmp_vec3 fuzz_direction(fuzz_input *in) {
     return (lmp_vec3) { (float)(x / length), (float)(y / length), (float)(z / length) };
 }
 
-/* For what must hold of the results. */
+/* Returns the input as text, to be freed; NULL if memory ran out. */
+static inline char *fuzz_text(const uint8_t *data, size_t size) {
+    char *const text = malloc(size + 1);
+    if (!text)
+        return NULL;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    return text;
+}
+
+/* Aborts unless a property of the results holds. */
 static inline void fuzz_expect(bool holds) {
     if (!holds)
         abort();

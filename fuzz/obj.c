@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* OBJ files, and MTL files: what follows a line of three dashes is the library of materials. */
-#include "app/scene/obj.h"
-#include "app/scene/mtl.h"
-#include "app/scene/origin.h"
+/* OBJ files with their MTL files: what follows a line of three dashes is the library of
+ * materials. */
+#include "app/scene/load/obj.h"
+#include "app/scene/load/mtl.h"
+#include "app/scene/load/origin.h"
 #include "fuzz/scene.h"
 
 #include <string.h>
@@ -14,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     scene_builder builder = { 0 };
     texture_files files = { .sources = &sources, .images.builder = &builder };
     mtl_names names = { .items = NULL };
-    cli_error error = { "" };
+    base_error error = { "" };
     if (origin_read(obj_add, text, obj_size, &sources, &builder, &error))
         fuzz_scene_check(&builder);
     if (split)

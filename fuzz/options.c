@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Command lines, one word a line. */
-#include "app/cli/cli.h"
+/* Command lines, one word per line. */
+#include "app/base/cli.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Images to be compared: .png. */
+/* Images for `compare`: .png. */
 #include "app/image/png.h"
 #include "fuzz/png.h"
 
@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         .path = "input", .data = png.bytes, .size = png.size, .pixels_max = 1 << 16
     };
     image pixels;
-    cli_error error;
+    base_error error;
     if (png.bytes && image_decode_png(&source, &pixels, &error)) {
         for (size_t i = 0; i < 3 * (size_t)pixels.width * (size_t)pixels.height; i++)
             if (!(pixels.rgb[i] >= 0 && pixels.rgb[i] <= 1))

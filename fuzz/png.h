@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* png.h - inputs as PNG files that get past the checksums and the deflated streams, where all the
- * rest of a reader lies. A file has its checksums mended. What is none describes one: 13 bytes of
- * header, then chunks, each a byte for its name, one for its length, and its data, which are
- * deflated where the chunk has them so. */
+/* png.h - turns inputs into PNG files that pass the checksums and the deflated streams, which the
+ * rest of a reader lies behind. A file gets valid checksums. Any other input describes a file: 13
+ * bytes of header, then chunks, each with a byte for its name, one for its length, and its data,
+ * deflated if the chunk requires it. */
 #ifndef LAMPION_FUZZ_PNG_H
 #define LAMPION_FUZZ_PNG_H
 
@@ -46,7 +46,7 @@ static inline void fuzz_png_add(fuzz_png *png, const char *name, const void *dat
     png->size += 12 + size;
 }
 
-/* A chunk whose data begin as they are, up to `plain` bytes, and go on deflated. */
+/* Adds a chunk whose first `plain` bytes are as they are, and the rest deflated. */
 static inline void fuzz_png_add_deflated(fuzz_png *png, const char *name, const uint8_t *data,
                                          size_t size, size_t plain) {
     unsigned char chunk[1024];
@@ -57,11 +57,12 @@ static inline void fuzz_png_add_deflated(fuzz_png *png, const char *name, const 
         fuzz_png_add(png, name, chunk, before + length);
 }
 
-/* The names that are common, and how many bytes of each come before its deflated part. */
+/* Makes a file of the common chunks; the table tells how many bytes precede the deflated part of
+ * each. */
 static inline void fuzz_png_describe(fuzz_png *png, const uint8_t *data, size_t size) {
     static const struct {
         char name[5];
-        int plain; /* -1: all of it */
+        int plain; /* -1: all bytes */
     } chunks[] = { { "IDAT", 0 },  { "IDAT", -1 }, { "PLTE", -1 }, { "tRNS", -1 }, { "gAMA", -1 },
                    { "sRGB", -1 }, { "tEXt", -1 }, { "zTXt", 9 },  { "iTXt", -1 }, { "iTXt", 12 },
                    { "iCCP", 9 },  { "cHRM", -1 }, { "sBIT", -1 }, { "bKGD", -1 }, { "IEND", -1 } };
@@ -81,7 +82,7 @@ static inline void fuzz_png_describe(fuzz_png *png, const uint8_t *data, size_t 
     fuzz_png_add(png, "IEND", NULL, 0);
 }
 
-/* Free the bytes, which are NULL for inputs too short. */
+/* Makes a PNG file of the input. Free its bytes, which are NULL for inputs that are too short. */
 static inline fuzz_png fuzz_png_make(const uint8_t *data, size_t size) {
     fuzz_png png = { .bytes = NULL };
     if (size < 13)

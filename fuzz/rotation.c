@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Rotations: each band keeps its length, one rotation undoes the other, and every way to the same
- * rotation gives the same coefficients. */
+/* Rotations: each band keeps its norm, the inverse rotation undoes a rotation, and all
+ * representations of a rotation give the same coefficients. */
 #include "fuzz/numbers.h"
 
 #include <lampion/sh.h>
@@ -58,22 +58,22 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         sh[i] = fuzz_float(&in, 1e-12f, 1e12f);
     const double bound = 1e-5 * bands * length_of(sh, 0, bands * bands);
 
-    lmp_sh_rotation(bands, q, matrices);
+    lmp_sh_make_rotation(bands, q, matrices);
     lmp_sh_rotate(bands, matrices, sh, rotated);
     check_lengths(bands, sh, rotated, bound);
-    lmp_sh_rotation(bands, back, others);
+    lmp_sh_make_rotation(bands, back, others);
     lmp_sh_rotate(bands, others, rotated, again);
     fuzz_expect(difference(bands, sh, again) <= bound);
     matrix_of(q, m);
-    lmp_sh_rotation_from_matrix(bands, m, others);
+    lmp_sh_make_rotation_from_matrix(bands, m, others);
     lmp_sh_rotate(bands, others, sh, again);
     fuzz_expect(difference(bands, rotated, again) <= bound);
-    lmp_sh_rotate_n(bands, matrices, sh, 1, LMP_SH_INTERLEAVED, 0, again);
+    lmp_sh_rotate_n(bands, matrices, sh, 1, lmp_sh_interleaved(again, 0));
     fuzz_expect(difference(bands, rotated, again) <= bound);
 
     lmp_sh_rotate_z(bands, angle, sh, rotated);
-    lmp_sh_rotation(bands, (lmp_quat) { 0, 0, sinf(angle / 2), cosf(angle / 2) }, matrices);
+    lmp_sh_make_rotation(bands, (lmp_quat) { 0, 0, sinf(angle / 2), cosf(angle / 2) }, matrices);
     lmp_sh_rotate(bands, matrices, sh, again);
-    fuzz_expect(difference(bands, rotated, again) <= 100 * bound); /* of an angle up to 100 */
+    fuzz_expect(difference(bands, rotated, again) <= 100 * bound); /* angles are up to 100 */
     return 0;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scene.h - for readers of scenes: what they made is valid. */
+/* scene.h - for readers of scenes: checks that what they made is valid. */
 #ifndef LAMPION_FUZZ_SCENE_H
 #define LAMPION_FUZZ_SCENE_H
 
@@ -9,8 +9,8 @@
 
 #include <stdlib.h>
 
-/* Every index, count and number must be such that the program may use it; positions alone may be
- * too far away, and a material too few, which the importer checks by itself. */
+/* Checks that the program may use every index, count and number; only positions may be too far
+ * away, and materials missing, which the importer checks itself. */
 static inline void fuzz_scene_check(const scene_builder *builder) {
     const size_t vertices = builder_count(builder, BLOB_VERTICES);
     const uint32_t *indices = builder_items(builder, BLOB_INDICES);

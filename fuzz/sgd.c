@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of SGD fits: a row that is read holds finite numbers, and a BRDF made of it reflects no
- * negative light and no NaN. */
-#include "app/material/sgd_file.h"
+/* Tables of SGD fits: an accepted row has finite numbers, and its BRDF reflects no negative light
+ * and no NaN. */
+#include "app/scene/sgd_file.h"
 #include "fuzz/numbers.h"
 
 static void check(const lmp_sgd *sgd) {
@@ -18,12 +18,10 @@ static void check(const lmp_sgd *sgd) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     lmp_sgd sgd;
-    cli_error error;
-    char *const text = malloc(size + 1);
+    base_error error;
+    char *const text = fuzz_text(data, size);
     if (!text)
         return 0;
-    memcpy(text, data, size);
-    text[size] = '\0';
     if (sgd_file_find(text, "a", "input", &sgd, &error))
         check(&sgd);
     free(text);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* shade.h - lights small, wide, ambient and far, for the tables that the kernels read. */
+/* shade.h - small, large, ambient and distant lights, for the tables that the kernels read. */
 #ifndef LAMPION_FUZZ_SHADE_H
 #define LAMPION_FUZZ_SHADE_H
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Settings of screenshots: what is taken is in range, and comes back from its own JSON. */
-#include "app/file/file.h"
+/* Settings of screenshots: what is accepted is in range, and reads back unchanged from its own
+ * JSON. */
+#include "app/base/error.h"
+#include "app/base/file_json.h"
 #include "app/view/settings.h"
 #include "fuzz/file.h"
 
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,33 +25,33 @@ static void check(const view_settings *s) {
                 abort();
 }
 
-/* Written as text and read: the same settings. */
+/* Checks that settings written as JSON read back unchanged. */
 static void expect_same_again(const view_settings *settings) {
     static view_settings again;
-    cli_error error;
+    base_error error;
     char *text = file_json_text(view_settings_to_json(settings), false, "again", &error);
-    cJSON *read = text ? file_parse_json("again", text, strlen(text), &error) : NULL;
+    json_t *read = text ? file_parse_json("again", text, strlen(text), &error) : NULL;
     if (!read || !view_settings_from_json(read, "again", &again, &error) ||
         memcmp(settings, &again, sizeof again) != 0)
         abort();
-    cJSON_Delete(read);
+    json_decref(read);
     free(text);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static view_settings first;
-    cli_error error;
+    base_error error;
     char *text = malloc(size + 1);
     if (!text)
         return 0;
     memcpy(text, data, size);
     text[size] = '\0';
-    cJSON *root = file_parse_json("input", text, size, &error);
+    json_t *root = file_parse_json("input", text, size, &error);
     if (root && view_settings_from_json(root, "input", &first, &error)) {
         check(&first);
         expect_same_again(&first);
     }
-    cJSON_Delete(root);
+    json_decref(root);
     free(text);
     return 0;
 }

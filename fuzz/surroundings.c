@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Images of the surroundings, latitude-longitude and cube maps, in any layout: nothing beside their
+/* Images of the environment, latitude-longitude and cube maps, in any layout: nothing outside their
  * texels is read, and the sums are no larger than the brightest texel allows. */
 #include "fuzz/numbers.h"
 
@@ -22,7 +22,7 @@ static layout take_layout(fuzz_input *in, bool square) {
     const size_t item = l.texel == LMP_TEXEL_HALF ? 2 : 4, columns = (size_t)l.columns;
     const size_t rows = (size_t)l.rows, channels = (size_t)l.channels;
     const size_t padding = item * (size_t)fuzz_int(in, 0, 3);
-    if (fuzz_int(in, 0, 1)) { /* planar */
+    if (fuzz_int(in, 0, 1)) { /* a planar layout */
         l.channel_stride = item * columns * rows + rows * padding;
         l.texel_stride = item;
         l.row_stride = item * columns + padding;
@@ -36,7 +36,7 @@ static layout take_layout(fuzz_input *in, bool square) {
     return l;
 }
 
-/* Texels in memory of just their size: finite floats, or halves below infinity. */
+/* Takes texels into memory of exactly their size: finite floats, or halves below infinity. */
 static void *take_texels(fuzz_input *in, const layout *l) {
     void *pixels = malloc(l->bytes);
     if (!pixels)

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Text files: what was UTF-16 is UTF-8, and nothing grows beyond what was made room for; and the
+/* Text files: UTF-16 becomes UTF-8, and nothing is written past the allocated memory; and the
  * accessors of COLLADA. */
-#include "app/scene/text.h"
-#include "app/scene/collada.h"
+#include "app/scene/load/text.h"
+#include "app/scene/load/collada.h"
 #include "fuzz/numbers.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether every sequence is whole. */
+/* Whether every UTF-8 sequence is complete. */
 static bool is_utf8(const unsigned char *text, size_t size) {
     for (size_t i = 0; i < size;) {
         const size_t more = text[i] < 0x80 ? 0 : text[i] < 0xe0 ? 1 : text[i] < 0xf0 ? 2 : 3;
@@ -32,7 +32,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (text_to_utf8(&text, &used)) {
         fuzz_expect(marked ? is_utf8(text, used) : used == size && !memcmp(text, data, size));
         const size_t trimmed = text_trim_xml(text, used);
-        cli_error error;
+        base_error error;
         fuzz_expect(trimmed <= used);
         collada_check(text, trimmed, "input", &error);
     }

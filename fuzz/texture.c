@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Textures: what is decoded has all its texels. A PNG has its checksums mended. stb_image decodes
- * TGA and BMP here, and in a browser PNG and JPEG, too. */
+/* Textures: what is decoded has all of its texels. A PNG gets valid checksums. stb_image decodes
+ * TGA and BMP here, and also PNG and JPEG in a browser. */
 #include "app/scene/texture.h"
 #include "app/image/texels.h"
 #include "fuzz/png.h"
@@ -25,11 +25,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const fuzz_png png = is_png ? fuzz_png_make(data, size) : (fuzz_png) { .bytes = NULL };
     scene_builder builder = { 0 };
     scene_texture texture = { 0 };
-    cli_error error;
+    base_error error;
     if (texture_keep(&builder, is_png ? png.bytes : data, size, TEXTURE_ANY, "input", "image",
                      &texture, &error) &&
         texture_decode_all(&builder, "input", &error) &&
-        builder_count(&builder, BLOB_LEFT_OUT) == 0 &&
+        builder_count(&builder, BLOB_UNSUPPORTED) == 0 &&
         builder_count(&builder, BLOB_TEXELS) != 4 * (size_t)texture.width * texture.height)
         abort();
     builder_free(&builder);

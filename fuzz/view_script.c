@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scripts of the viewer: what is read has rising times and known events. */
+/* Scripts of the viewer: what is read has ascending times and known events. */
 #include "app/view/script.h"
 #include "fuzz/file.h"
 
@@ -7,7 +7,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     view_script script;
-    cli_error error;
+    base_error error;
     char path[64];
     if (!fuzz_file_write(data, size, ".txt", path))
         abort();

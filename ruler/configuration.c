@@ -11,7 +11,7 @@ const char *const ruler_material_names[RULER_MATERIALS] = { "lambert", "phong", 
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
 
-/* Of each size, about how many degrees the light covers on each side. */
+/* Sizes of lights, each with about how many degrees the light covers on each side. */
 typedef struct light_size {
     int size, degrees;
 } light_size;
@@ -30,7 +30,7 @@ static const light_size spots[] = {
     { 0, 0 }, { 15000, 0 }, { 22500, 0 }, { 30000, 0 }, { 37500, 0 },
 };
 
-/* Kinds of lights by how often they come, of 20. */
+/* Kinds of lights, with how many of 20 lights are of that kind. */
 static const struct {
     ruler_light light;
     int weight, count;
@@ -54,7 +54,8 @@ static const int sequence_counts[RULER_MATERIALS] = {
     [RULER_LAMBERT] = 400, [RULER_PHONG] = 900, [RULER_METAL] = 910, [RULER_DIELECTRIC] = 910
 };
 
-/* Number n of the additive recurrence in five dimensions (Roberts 2018): parts of 2^32. */
+/* Computes element n of the additive recurrence in five dimensions (Roberts 2018), in units of
+ * 2^-32. */
 #define DIMENSIONS 5
 enum { OF_LIGHT, OF_ANGLE, OF_AZIMUTH, OF_VIEW, OF_AIM };
 static void sequence_at(int n, uint32_t u[DIMENSIONS]) {
@@ -64,7 +65,7 @@ static void sequence_at(int n, uint32_t u[DIMENSIONS]) {
         u[k] = 0x80000000u + (uint32_t)n * steps[k];
 }
 
-/* u as an integer 0 … count - 1, and from -reach to reach, dense in the middle. */
+/* Map u to an integer 0 … count - 1, and to one from -reach to reach, dense in the middle. */
 static int to_range(uint32_t u, int count) {
     return (int)(((uint64_t)u * (uint64_t)count) >> 32);
 }
@@ -74,7 +75,7 @@ static int to_middle(uint32_t u, int reach) {
 }
 
 static const light_size *choose_light(uint32_t u, ruler_light *light) {
-    uint64_t at = (uint64_t)u * WEIGHTS; /* whole part: of the weights */
+    uint64_t at = (uint64_t)u * WEIGHTS; /* the integer part is a position among the weights */
     int k = 0;
     for (; at >> 32 >= (uint64_t)kinds[k].weight; k++)
         at -= (uint64_t)kinds[k].weight << 32;
@@ -82,8 +83,8 @@ static const light_size *choose_light(uint32_t u, ruler_light *light) {
     return &kinds[k].sizes[at / (uint64_t)kinds[k].weight * (uint64_t)kinds[k].count >> 32];
 }
 
-/* Of four lights two are near the mirror direction, one is where the horizon cuts it, and one is
- * anywhere above the horizon or a little below. */
+/* Aims a light: of four lights two are near the mirror direction, one is where the horizon cuts it,
+ * and one is anywhere above the horizon or a little below. */
 static void aim(ruler_configuration *c, const uint32_t u[DIMENSIONS], int degrees) {
     const int where = to_range(u[OF_AIM], 4);
     if (where < 2) {
@@ -121,7 +122,7 @@ typedef struct corner {
 } corner;
 static const corner corners[] = {
     { RULER_SPHERE, 1, 4500, 0, 4500 },       /* tiny, in the mirror direction */
-    { RULER_SPHERE, 100, 0, 0, 0 },           /* all along the normal */
+    { RULER_SPHERE, 100, 0, 0, 0 },           /* everything along the normal */
     { RULER_SPHERE, 300, 8900, 0, 8900 },     /* grazing, cut by the horizon */
     { RULER_SPHERE, 500, 9000, 0, 5500 },     /* half below the horizon */
     { RULER_SPHERE, 500, 11900, 0, 8000 },    /* a degree above it */
@@ -134,7 +135,7 @@ static const corner corners[] = {
 static const int corner_exponents[] = { 1, 100, 10000 },
                  corner_roughnesses[] = { 173, 300, 600, 1000 };
 
-/* One material of the corners, of as many as there are: lambert, phong …, metal …, dielectric … */
+/* Sets one material of the corners, in the order lambert, phong …, metal …, dielectric … */
 #define CORNER_MATERIALS (1 + COUNT_OF(corner_exponents) + 2 * COUNT_OF(corner_roughnesses))
 static void set_corner_material(ruler_configuration *c, int k) {
     c->color = 100;
@@ -181,7 +182,7 @@ ruler_configuration ruler_configuration_at(int id) {
     return c;
 }
 
-/* An integer of 10^-digits, without trailing zeros. */
+/* Prints an integer in units of 10^-digits, without trailing zeros. */
 static void print_decimal(FILE *stream, int value, int digits) {
     int unit = 1;
     for (int i = 0; i < digits; i++)

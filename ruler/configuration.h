@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* configuration.h - what the ruler measures: one light, one material, one view. Every number is an
+/* configuration.h - what the ruler computes: one light, one material, one view. Every number is an
  * integer, so that a row of the table says exactly what was computed. */
 #ifndef LAMPION_RULER_CONFIGURATION_H
 #define LAMPION_RULER_CONFIGURATION_H
@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 typedef enum ruler_light {
-    RULER_SPHERE,     /* size: radius over distance; from 1 on the point touches it or is inside */
+    RULER_SPHERE,     /* size: radius over distance; touching or containing from 1 on */
     RULER_SUN,        /* size: half angle in degrees, up to 180 */
     RULER_HEMISPHERE, /* radiance 1 around an axis, RULER_GROUND in the other half */
     RULER_POINT,      /* irradiance 1 across its direction */
@@ -16,7 +16,8 @@ typedef enum ruler_light {
     RULER_LIGHTS
 } ruler_light;
 
-/* The hemisphere light's lower half, and the spot light's cone as KHR_lights_punctual has it. */
+/* The radiance of the hemisphere light's lower half, and the spot light's cone as
+ * KHR_lights_punctual defines it. */
 #define RULER_GROUND_HUNDREDTHS  25
 #define RULER_SPOT_INNER_DEGREES 20
 #define RULER_SPOT_OUTER_DEGREES 40
@@ -35,20 +36,20 @@ extern const char *const ruler_material_names[RULER_MATERIALS];
 typedef struct ruler_configuration {
     int id;
     ruler_light light;
-    int size;          /* thousandths */
+    int size;          /* in thousandths */
     int light_angle;   /* from the normal, hundredths of a degree */
     int light_azimuth; /* from the side of the mirror direction, hundredths of a degree */
     int view_angle;    /* from the normal, hundredths of a degree */
     ruler_material material;
     int color;     /* hundredths; one channel */
-    int roughness; /* thousandths; glTF's, alpha is its square */
+    int roughness; /* in thousandths; glTF's, of which alpha is the square */
     int exponent;  /* of phong */
 } ruler_configuration;
 
 int ruler_configuration_count(void);
 
-/* Number 1 … ruler_configuration_count(): a low-discrepancy sequence for each material, then
- * corners chosen by hand. */
+/* Returns configuration 1 … ruler_configuration_count(): a low-discrepancy sequence for each
+ * material, then corners chosen by hand. */
 ruler_configuration ruler_configuration_at(int id);
 
 #define RULER_CONFIGURATION_COLUMNS                                                                \

@@ -20,7 +20,7 @@ void ruler_angle_set(ruler_angle *angle, int hundredths) {
     angle->hundredths = hundredths;
 }
 
-/* The sign of an angle; one that may be 0 must be known exactly. */
+/* Returns the sign of an angle; an angle that may be 0 must be known exactly. */
 static int sign_of(const ruler_angle *angle) {
     if (angle->exact)
         return (angle->hundredths > 0) - (angle->hundredths < 0);
@@ -31,7 +31,7 @@ static int sign_of(const ruler_angle *angle) {
     return arb_is_positive(angle->radians) ? 1 : -1;
 }
 
-/* s t + u a + v right angles. */
+/* Computes s t + u a + v right angles. */
 static void combine(ruler_angle *sum, int s, const ruler_angle *t, int u, const ruler_angle *a,
                     int v) {
     arb_const_pi(sum->radians, RULER_PRECISION);
@@ -61,7 +61,7 @@ void ruler_domain_clear(ruler_domain *domain) {
     arb_clear(domain->spread);
 }
 
-/* Circles from theta = low to the horizon, or to `high` if that is above it. */
+/* Sets circles from theta = low to the horizon, or to `high` if that is above it. */
 static void set_circles(ruler_domain *domain, const arb_t low, const arb_t high, bool below) {
     domain->whole = true;
     arb_set(domain->low, low);
@@ -73,7 +73,8 @@ static void set_circles(ruler_domain *domain, const arb_t low, const arb_t high,
     }
 }
 
-/* x runs from where theta is the horizon, or the last arc, to pi/2, where it is the first one. */
+/* Sets arcs: x runs from where theta is the horizon, or the last arc, to pi/2, where theta is the
+ * first one. */
 static void set_arcs(ruler_domain *domain, bool below) {
     domain->whole = false;
     arb_add(domain->middle, domain->first, domain->last, RULER_PRECISION);
@@ -107,7 +108,7 @@ int ruler_domains_of_cap(const ruler_angle *t, const ruler_angle *a,
     const bool first_below = sign_of(&end) >= 0;
     combine(&end, 1, &last, 0, a, -1);
     const bool last_below = sign_of(&end) > 0;
-    /* around the pole, and of all directions, every circle is whole */
+    /* A light around the pole, or of all directions, has only whole circles. */
     const bool round = t->exact && t->hundredths == 0;
     const bool all = a->exact && a->hundredths == 18000;
 
@@ -133,7 +134,7 @@ int ruler_domains_of_cap(const ruler_angle *t, const ruler_angle *a,
     return count;
 }
 
-/* sqrt(sin(spread u²)) for analytic u, which may be 0: |u| is taken as u. */
+/* Computes sqrt(sin(spread u²)) for analytic u, which may be 0: |u| is taken as u. */
 static void vanishing_root(acb_t root, const acb_t u, const arb_t spread) {
     acb_t sine;
     acb_init(sine);
@@ -146,7 +147,7 @@ static void vanishing_root(acb_t root, const acb_t u, const arb_t spread) {
     acb_clear(sine);
 }
 
-/* sqrt(sin((theta + end)/2)) */
+/* Computes sqrt(sin((theta + end)/2)). */
 static void other_root(acb_t root, const acb_t theta, const arb_t end) {
     acb_add_arb(root, theta, end, RULER_PRECISION);
     acb_mul_2exp_si(root, root, -1);
@@ -154,7 +155,7 @@ static void other_root(acb_t root, const acb_t theta, const arb_t end) {
     acb_sqrt_analytic(root, root, 1, RULER_PRECISION);
 }
 
-/* Multiplies tan(arc/2) = y/x by the roots of one end. Where they are the same they cancel. */
+/* Multiplies tan(arc/2) = y/x by the roots of one end; equal roots cancel. */
 static void multiply_roots(acb_t y, acb_t x, int sign, const acb_t u, const arb_t spread,
                            const acb_t theta, const arb_t end) {
     if (sign == 0)
@@ -168,7 +169,7 @@ static void multiply_roots(acb_t y, acb_t x, int sign, const acb_t u, const arb_
     acb_clear(root);
 }
 
-/* 2 atan(y/x) = -i (log(x + iy) - log(x - iy)), for x = 0 too. */
+/* Computes 2 atan(y/x) = -i (log(x + iy) - log(x - iy)), for x = 0 too. */
 static void set_arc(acb_t arc, acb_t y, const acb_t x) {
     acb_t below;
     acb_init(below);

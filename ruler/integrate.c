@@ -6,8 +6,8 @@
 
 #define NODES_MAX   24
 #define DEPTH_MAX   60
-#define ELLIPSE_MIN 2          /* rho of the narrowest ellipse that is tried */
-#define SLACK       (1 + 1e-9) /* more than doubles lose in a bound */
+#define ELLIPSE_MIN 2          /* rho of the narrowest ellipse tried */
+#define SLACK       (1 + 1e-9) /* more than a bound loses by doubles */
 #define P           RULER_PRECISION
 
 /* Nodes and weights of every rule used so far, on -1 … 1. */
@@ -31,7 +31,8 @@ void ruler_integrate_cleanup(void) {
         }
 }
 
-/* Coordinates of the unit square: u along x, v along the arc. Dyadic, hence exact in double. */
+/* An interval in the unit square, u along x, v along the arc. Its ends are dyadic, hence exact in
+ * double. */
 typedef struct interval {
     double low, high;
 } interval;
@@ -51,7 +52,8 @@ typedef struct work {
     acb_t u, v, value;
 } work;
 
-/* A ball that covers the ellipse of parameter rho around the interval; rho 1 is the interval. */
+/* Finds a ball that covers the ellipse of parameter rho around the interval; rho 1 is the interval
+ * itself. */
 static void cover(acb_t ball, const interval *side, double rho) {
     const double half = (side->high - side->low) / 2;
     arb_set_d(acb_realref(ball), side->low + half);
@@ -68,7 +70,7 @@ static void set_ring(work *w, const acb_t u) {
     ruler_ring_set(&w->ring, w->lobe, w->domain, w->value);
 }
 
-/* |f| at most, HUGE_VAL where it is not proven analytic. */
+/* Returns a bound of |f|, HUGE_VAL where f is not proven to be analytic. */
 static double largest(work *w, const patch *at, int direction, double rho) {
     mag_t bound;
     mag_init(bound);
@@ -83,14 +85,14 @@ static double largest(work *w, const patch *at, int direction, double rho) {
     return most;
 }
 
-/* A rule in one direction: how many points, and what it errs by at most. */
+/* A rule in one direction: its number of points, and a bound of its error. */
 typedef struct rule {
     int points;
     double error;
 } rule;
 
-/* The rule with the fewest points; POINTS_UNKNOWN where no ellipse is proven to be free of poles.
- */
+/* Finds the rule with the fewest points; POINTS_UNKNOWN where no ellipse is proven to be free of
+ * poles. */
 #define POINTS_UNKNOWN 1000000
 static rule choose_rule(work *w, const patch *at, int direction) {
     static const double ellipses[] = { ELLIPSE_MIN, 3, 4.5, 7, 12, 25, 80, 1000 };
@@ -113,7 +115,7 @@ static rule choose_rule(work *w, const patch *at, int direction) {
     return best;
 }
 
-/* side's node k of n, in the unit square. */
+/* Finds node k of n on an interval of the unit square. */
 static void set_node(acb_t at, const interval *side, int n, int k) {
     arb_t half;
     arb_init(half);
@@ -157,8 +159,8 @@ static bool must_halve(work *w, const patch *at, int direction) {
     return !(largest(w, &line, direction, ELLIPSE_MIN) < HUGE_VAL);
 }
 
-/* The direction to halve: the one that takes more points; of two that no number is known for, one
- * that must be halved whatever the other is. */
+/* Returns the direction to halve: the one that needs more points; if no number is known for either,
+ * one that must be halved whatever the other is. */
 static int choose_direction(work *w, const patch *at, const rule rules[2]) {
     if (rules[0].points != rules[1].points)
         return rules[1].points > rules[0].points;
@@ -202,7 +204,7 @@ void ruler_integrate(arb_t sum, const ruler_lobe *lobe, const ruler_domain *doma
     acb_init(w.value);
     arb_sub(w.length, domain->high, domain->low, P);
     w.sum = part;
-    /* dphi = arc dy and dy = 2 dv: with dx = length du, `scale` times what f is here */
+    /* dphi = arc dy and dy = 2 dv; with dx = length du, that is `scale` times f as computed here */
     arb_t scale;
     arb_init(scale);
     arb_mul_2exp_si(scale, w.length, 1);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* integrate.h - the integral of a lobe over a part of a cap, with a proven bound of its error. */
+/* integrate.h - integrates a lobe over a part of a cap, with a proven bound of the error. */
 #ifndef LAMPION_RULER_INTEGRATE_H
 #define LAMPION_RULER_INTEGRATE_H
 
@@ -9,9 +9,9 @@
  *
  * Gauss-Legendre of n points over an interval of half length h errs by at most h (64/15) M
  * rho^(2-2n) / (1 - rho^-2) where |f| <= M within the ellipse of parameter rho around it
- * (Trefethen, Approximation Theory and Approximation Practice, theorem 19.3). M is what one
- * evaluation in balls that cover the ellipse gives; of two variables the errors add, the other one
- * being real. Rectangles are halved until few points will do. */
+ * (Trefethen, Approximation Theory and Approximation Practice, theorem 19.3). M comes from one
+ * evaluation in balls that cover the ellipse; with two variables the errors add, the other one
+ * being real. Rectangles are halved until few points suffice. */
 void ruler_integrate(arb_t sum, const ruler_lobe *lobe, const ruler_domain *domain,
                      double tolerance);
 

@@ -8,8 +8,8 @@
  *                                         H = (1 - alpha²) C cos² T,   T = (theta - view)/2
  *
  * which follow from (n·h)² = (n·l + n·v)² / (4 (v·h)²) and 2 (v·h)² = 1 + v·l. Only cosines near 1
- * cancel, and little comes twice, so that balls stay narrow at the peak, where E and Q are small.
- */
+ * cancel, and few terms occur twice, so that balls stay narrow at the peak, where E and Q are
+ * small. */
 #include "ruler/lobe.h"
 
 #define P RULER_PRECISION
@@ -51,7 +51,7 @@ static void set_ratio(arb_t value, int numerator, int denominator) {
     arb_div_si(value, value, denominator, P);
 }
 
-/* color (e+1)/(2 pi) cos^e; a diffuse lobe is the one with e = 1. */
+/* Sets color (e+1)/(2 pi) cos^e; a diffuse lobe is the one with e = 1. */
 static void set_zonal(ruler_lobe *lobe, int exponent, int color) {
     arb_t pi;
     arb_init(pi);
@@ -120,7 +120,7 @@ void ruler_ring_clear(ruler_ring *ring) {
     acb_clear(ring->spread);
 }
 
-/* sqrt(alpha² + (1 - alpha²) cos²) */
+/* Computes sqrt(alpha² + (1 - alpha²) cos²). */
 static void smith_root(acb_t root, const ruler_lobe *lobe, const acb_t cosine) {
     acb_sqr(root, cosine, P);
     acb_mul_arb(root, root, lobe->rest, P);
@@ -128,7 +128,8 @@ static void smith_root(acb_t root, const ruler_lobe *lobe, const acb_t cosine) {
     acb_sqrt_analytic(root, root, 1, P);
 }
 
-/* scale V cos theta, V = 0.5 / (n·l root(n·v) + n·v root(n·l)), and the largest that it can be. */
+/* Sets scale V cos theta, V = 0.5 / (n·l root(n·v) + n·v root(n·l)), and the largest value it can
+ * have. */
 static void set_specular(ruler_ring *ring, const ruler_lobe *lobe, const acb_t cosine) {
     acb_t root, sum;
     mag_t least;
@@ -150,7 +151,7 @@ static void set_specular(ruler_ring *ring, const ruler_lobe *lobe, const acb_t c
     mag_clear(least);
 }
 
-/* C, C E, H and sin theta sin view */
+/* Sets C, C E, H and sin theta sin view. */
 static void set_peak(ruler_ring *ring, const ruler_lobe *lobe, const acb_t theta,
                      const acb_t sine) {
     acb_t difference;
@@ -211,7 +212,7 @@ void ruler_ring_set(ruler_ring *ring, const ruler_lobe *lobe, const ruler_domain
     acb_clear(cosine);
 }
 
-/* Q */
+/* Computes Q. */
 static void set_across(acb_t across, const ruler_ring *ring, const acb_t phi) {
     acb_cos(across, phi, P);
     acb_sub_ui(across, across, 1, P);
@@ -219,7 +220,7 @@ static void set_across(acb_t across, const ruler_ring *ring, const acb_t phi) {
     acb_mul(across, across, ring->spread, P);
 }
 
-/* (v·h - 1)^5 */
+/* Computes (v·h - 1)^5. */
 static void set_schlick(acb_t schlick, const ruler_ring *ring, const acb_t across) {
     acb_add(schlick, across, ring->closest, P);
     acb_mul_2exp_si(schlick, schlick, -1);
@@ -228,7 +229,7 @@ static void set_schlick(acb_t schlick, const ruler_ring *ring, const acb_t acros
     acb_pow_ui(schlick, schlick, 5, P);
 }
 
-/* zonal (1 - F) + specular (1 + H/(C E + Q))² F, F = f0 + (1 - f0)(1 - v·h)^5 */
+/* Computes zonal (1 - F) + specular (1 + H/(C E + Q))² F, with F = f0 + (1 - f0)(1 - v·h)^5. */
 static void set_ggx_value(acb_t value, const ruler_ring *ring, const ruler_lobe *lobe,
                           const acb_t phi) {
     acb_t across, peak, fresnel;
@@ -253,7 +254,8 @@ static void set_ggx_value(acb_t value, const ruler_ring *ring, const ruler_lobe 
     acb_clear(fresnel);
 }
 
-/* The same by the sizes of its terms: a quotient of wide balls would be far wider. */
+/* Bounds the value of set_ggx_value by the sizes of its terms: a quotient of wide balls would be
+ * far wider. */
 static void bound_ggx(mag_t most, const ruler_ring *ring, const ruler_lobe *lobe, const acb_t phi) {
     acb_t across, term;
     mag_t least, fresnel;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion_ruler - writes the table of proven values; docs/ruler.md tells what it holds. */
+/* lampion_ruler - writes the table of proven values; docs/ruler.md describes it. */
 #include "ruler/integrate.h"
 #include "ruler/value.h"
 
@@ -9,9 +9,9 @@
 #include <string.h>
 #include <time.h>
 
-#define ZONAL_RADIUS 1e-11 /* relative; the page promises ten times as much */
+#define ZONAL_RADIUS 1e-11 /* relative; the document promises ten times as much */
 #define GGX_RADIUS   1e-8
-#define DARK         1e-30 /* what is less is printed as 0 */
+#define DARK         1e-30 /* smaller values are printed as 0 */
 
 typedef struct arguments {
     bool bands;
@@ -23,7 +23,7 @@ static bool is_zonal(const ruler_configuration *c) {
     return c->material == RULER_LAMBERT || c->material == RULER_PHONG;
 }
 
-/* Prints the double nearest to the middle; returns what it is off by at most. */
+/* Prints the double nearest to the middle; returns a bound of its error. */
 static double print_middle(const arb_t value) {
     double middle = arf_get_d(arb_midref(value), ARF_RND_NEAR);
     arb_t rest;
@@ -42,7 +42,7 @@ static double print_middle(const arb_t value) {
     return radius > 0 && radius < DARK ? DARK : radius;
 }
 
-/* Two digits, rounded up. */
+/* Prints two digits, rounded up. */
 static void print_radius(double radius) {
     printf(",%.1e\n", radius * 1.06);
 }
@@ -91,7 +91,7 @@ typedef struct effort {
     int count;
     double seconds;
 } effort;
-#define EFFORTS 1001 /* thousandths of roughness; 0: zonal lobes */
+#define EFFORTS 1001 /* thousandths of roughness; zonal lobes at 0 */
 
 static void print_efforts(const effort *efforts) {
     fprintf(stderr, "roughness  alpha   configurations  seconds\n");

@@ -18,7 +18,8 @@ void ruler_source_clear(ruler_source *source) {
     arb_clear(source->strength);
 }
 
-/* asin(r/d); a sphere that is touched covers a hemisphere, from inside it is everywhere. */
+/* Sets asin(r/d); a sphere that is touched covers a hemisphere, and from inside it is everywhere.
+ */
 static void set_sphere(ruler_angle *angle, int size) {
     if (size >= 1000) {
         ruler_angle_set(angle, size == 1000 ? 9000 : 18000);
@@ -30,7 +31,7 @@ static void set_sphere(ruler_angle *angle, int size) {
     arb_asin(angle->radians, angle->radians, P);
 }
 
-/* saturate((cos angle - cos outer)/(cos inner - cos outer))² */
+/* Computes saturate((cos angle - cos outer)/(cos inner - cos outer))². */
 static void set_falloff(arb_t strength, int thousandths) {
     ruler_angle angle, inner, outer;
     ruler_angle *const all[] = { &angle, &inner, &outer };
@@ -89,8 +90,8 @@ void ruler_pole_clear(ruler_pole *pole) {
     ruler_angle_clear(&pole->light);
 }
 
-/* The angle between light and mirror direction, by sin²(g/2) = sin²((t - v)/2) + sin t sin v
- * sin²(phi/2), where nothing cancels. */
+/* Computes the angle between light and mirror direction, by sin²(g/2) = sin²((t - v)/2) + sin t sin
+ * v sin²(phi/2), where nothing cancels. */
 static void set_between(ruler_angle *between, const ruler_configuration *c) {
     ruler_angle t, v, phi;
     ruler_angle *const all[] = { &t, &v, &phi };

@@ -13,12 +13,12 @@ typedef struct ruler_source {
 } ruler_source;
 #define RULER_SOURCES 2
 
-/* Returns how many there are; each is then to be cleared. */
+/* Finds the sources of a light and returns how many there are; each must then be cleared. */
 int ruler_sources(const ruler_configuration *configuration, ruler_source parts[RULER_SOURCES]);
 void ruler_source_clear(ruler_source *source);
 
-/* The angle between the light and the pole: the mirror direction of a Phong lobe, else the normal.
- */
+/* Finds the angle between the light and the pole: the mirror direction of a Phong lobe, else the
+ * normal. */
 typedef struct ruler_pole {
     ruler_angle light;
 } ruler_pole;

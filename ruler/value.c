@@ -7,8 +7,8 @@
 #include <math.h>
 
 #define P               RULER_PRECISION
-#define BANDS_PRECISION 400  /* bits: Legendre polynomials of a narrow cap nearly cancel */
-#define FLOOR           1e-6 /* of the scale */
+#define BANDS_PRECISION 400  /* bits, for Legendre polynomials of a narrow cap nearly cancel */
+#define FLOOR           1e-6 /* fraction of the scale */
 #define ROUNDS          8
 
 double ruler_scale(const ruler_configuration *configuration) {
@@ -77,7 +77,7 @@ static void evaluate(arb_t value, const ruler_configuration *configuration, doub
     ruler_lobe_clear(&lobe);
 }
 
-/* The tolerance follows the value, of which each round knows more. */
+/* The tolerance follows the value, which each round knows more exactly. */
 void ruler_value(arb_t value, const ruler_configuration *configuration, double relative) {
     const double scale = ruler_scale(configuration);
     double tolerance = relative * scale / 10;
@@ -96,8 +96,8 @@ void ruler_value(arb_t value, const ruler_configuration *configuration, double r
 
 const int ruler_band_counts[RULER_BAND_COUNTS] = { 3, 5, 10, 20, 100 };
 
-/* (e+1) ∫ t^e P_l(t) dt over 0 … 1 = sqrt(pi) (e+1)! / (2^(e+1) G(1 + (e-l)/2) G((3 + e + l)/2)),
- * the Funk-Hecke factor of a lobe that integrates to 1. */
+/* Sets (e+1) ∫ t^e P_l(t) dt over 0 … 1 = sqrt(pi) (e+1)! / (2^(e+1) G(1 + (e-l)/2) G((3 + e +
+ * l)/2)), the Funk-Hecke factor of a lobe of integral 1. */
 static void set_factor(arb_t factor, int exponent, int l) {
     arb_t term;
     arb_init(term);
@@ -114,7 +114,8 @@ static void set_factor(arb_t factor, int exponent, int l) {
     arb_clear(term);
 }
 
-/* ∫ P_l over the source, around its axis: 2 pi (P_(l-1) - P_(l+1))(cos a) / (2l+1) of a cap. */
+/* Adds ∫ P_l over the source, around its axis: 2 pi (P_(l-1) - P_(l+1))(cos a) / (2l+1) for a cap.
+ */
 static void add_zonal(arb_t zonal, const ruler_source *source, int l) {
     arb_t cosine, first, last;
     arb_init(cosine);
@@ -138,7 +139,7 @@ static void add_zonal(arb_t zonal, const ruler_source *source, int l) {
     arb_clear(last);
 }
 
-/* (1 + cos(pi l/n))/2 */
+/* Multiplies a term by (1 + cos(pi l/n))/2. */
 static void weigh(arb_t term, int l, int bands) {
     arb_t weight;
     arb_init(weight);
@@ -177,7 +178,7 @@ void ruler_value_of_bands(arb_t value, const ruler_configuration *configuration,
             weigh(term, l, bands);
         arb_addmul_ui(value, term, 2 * (ulong)l + 1, BANDS_PRECISION);
     }
-    /* of the addition theorem, and the color */
+    /* factors of the addition theorem, and the color */
     arb_const_pi(factor, BANDS_PRECISION);
     arb_mul_ui(factor, factor, 400, BANDS_PRECISION);
     arb_div(value, value, factor, BANDS_PRECISION);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Where the page looks from, and the frame_block of shared.h that says so.
+// The position and direction of the page's camera, and the frame_block of shared.h that holds them.
 const sub = (a, b) => a.map((x, i) => x - b[i]);
 const add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (a) => a.map((x) => x / Math.hypot(...a));
 
-// v turned around a unit axis
+// Returns v rotated around a unit axis.
 function turn(v, axis, angle) {
     const c = Math.cos(angle), s = Math.sin(angle);
     return add(add(v.map((x) => x * c), cross(axis, v), s), axis, dot(axis, v) * (1 - c));
@@ -15,10 +15,10 @@ function turn(v, axis, angle) {
 export function makeCamera({ eye, target, up, fov }, minimum, maximum) {
     const inside = eye.every((x, i) => x > minimum[i] && x < maximum[i]);
     const extent = Math.max(...sub([...maximum], [...minimum])) || 1;
-    // WebGL keeps depth less exactly than the program: its near plane is ten times as far
+    // WebGL's depth is less exact than the program's, so the near plane is ten times as far.
     const near = 1e-3 * extent;
 
-    // forward, right and down, as long as what a pixel's ray adds at the image's edge
+    // Returns forward, right and down, as long as what a pixel's ray adds at the image's edge.
     function axes(aspect) {
         const half = Math.tan(fov / 2), forward = unit(sub(target, eye)), right = unit(cross(forward, up));
         return { forward, right: right.map((x) => x * half * aspect), down: cross(forward, right).map((x) => x * half), half };
@@ -35,18 +35,19 @@ export function makeCamera({ eye, target, up, fov }, minimum, maximum) {
             block.set([width, height, lightCount, 0, 0, 0, 0, 1], 36);
             return block;
         },
-        // the unit ray through a point of the image, -1 … 1 to the right and down
+        // Returns the unit ray through a point of the image, -1 … 1 to the right and down.
         ray(x, y, aspect) {
             const { forward, right, down } = axes(aspect);
             return { eye, along: unit(add(add(forward, right, x), down, y)), forward };
         },
-        // where a point is in an image
+        // Returns where a point is in an image.
         project(point, width, height) {
             const { forward, right, down } = axes(width / height), from = sub(point, eye), depth = dot(from, forward);
             const part = (axis) => (dot(from, axis) / dot(axis, axis) / depth + 1) / 2;
             return [part(right) * width, part(down) * height];
         },
-        // by parts of the image's height: around oneself inside a building, else around what is seen
+        // Rotates by fractions of the image's height: in place inside a building, else around the
+        // target.
         look(x, y) {
             const right = unit(cross(sub(target, eye), up)), from = inside ? eye : target;
             let arm = sub(inside ? target : eye, from);
@@ -58,7 +59,7 @@ export function makeCamera({ eye, target, up, fov }, minimum, maximum) {
             else
                 eye = add(from, arm);
         },
-        // towards what is seen
+        // Moves toward the target.
         move(part) {
             const step = sub(target, eye).map((x) => x * Math.min(part, 0.5));
             eye = add(eye, step);
@@ -68,8 +69,8 @@ export function makeCamera({ eye, target, up, fov }, minimum, maximum) {
     };
 }
 
-// The light that a ray meets first, of lights as the shaders read them; -1 if none. A finger is
-// broad: `reach` times its radius counts.
+// Returns the first light that a ray meets, of lights as the shaders read them, or -1. A finger is
+// broad: `reach` times a light's radius counts.
 export function pick(lights, { eye, along }, reach) {
     let best = -1, least = Infinity;
     for (let i = 0; 12 * i < lights.length; i++) {
@@ -81,7 +82,8 @@ export function pick(lights, { eye, along }, reach) {
     return best;
 }
 
-// How a light moves that is dragged from one ray to another, in the plane that faces the camera.
+// Returns the motion of a light that is dragged from one ray to another, in the plane that faces
+// the camera.
 export function dragged(light, from, to) {
     const depth = dot(sub([...light], from.eye), from.forward);
     const at = (ray) => ray.along.map((x) => x * depth / dot(ray.along, ray.forward));

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* codecs.c - what Debian has libraries for on the machine's own architecture alone: a page decodes
- * PNG and JPEG by stb_image, and says of the rest that it is not read. */
+/* codecs.c - stands in for libraries that Debian has only for the machine's own architecture: a
+ * page decodes PNG and JPEG by stb_image, and reports other formats as not read. */
 #include "app/image/texels.h"
-#include "app/scene/draco.h"
-#include "app/scene/meshopt.h"
+#include "app/scene/gltf/draco.h"
+#include "app/scene/gltf/meshopt.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -38,7 +38,7 @@ void *meshopt_decode(const meshopt_layout *layout, const unsigned char *data, si
     return NULL;
 }
 
-/* Nothing else is asked of a mesh that there is none of. */
+/* There are no meshes, so nothing else is asked of one. */
 draco_mesh *draco_mesh_decode(const void *data, size_t size) {
     (void)data, (void)size;
     return NULL;

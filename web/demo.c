@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* demo.c - what the page asks of the library and of the program's scenes. It draws by WebGL itself,
- * with the program's own shaders: arrays here are laid out as these read them. */
-#include "app/animation/animation.h"
+/* demo.c - what the page calls of the library and of the program's scenes. The page draws by WebGL
+ * itself, with the program's own shaders: arrays here have the layout that these read. */
+#include "app/base/sandbox.h"
 #include "app/image/tone.h"
 #include "app/render/gl/block.h"
 #include "app/render/gl/shelves.h"
-#include "app/sandbox/sandbox.h"
-#include "app/scene/builtin.h"
-#include "app/scene/emission.h"
+#include "app/scene/animation.h"
+#include "app/scene/builtin/builtin.h"
 #include "app/scene/flatten.h"
-#include "app/scene/gltf.h"
-#include "app/scene/origin.h"
+#include "app/scene/gltf/gltf.h"
+#include "app/scene/load/emission.h"
+#include "app/scene/load/origin.h"
 #include "app/scene/texture.h"
 
 #include <emscripten/emscripten.h>
@@ -21,30 +21,33 @@
 #define EXPORT EMSCRIPTEN_KEEPALIVE
 
 static struct {
-    cli_error error;
+    base_error error;
     scene world;
     animation *path;
-    size_t lanterns; /* the first lights, which hang in paper lanterns of the scene: they rest */
-    scene_light moved[SCENE_LIGHTS_MAX];
-    shared_light lights[SHARED_LIGHTS_MAX];
+    size_t lanterns; /* the first lights, which stay in paper lanterns of the scene */
+    /* SCENE_LIGHTS_MAX of each, allocated with the first scene: as they move, as the shaders and as
+     * the library take them. A module's static memory is small. */
+    scene_light *moved;
+    shared_light *lights;
+    lmp_light *emitters;
     shared_material *materials;
-    shared_reflector *reflectors;
+    shared_material_constants *constants;
 } demo;
 
 static const char *outcome(bool ok) {
     return ok ? NULL : demo.error.text;
 }
 
-/* Nobody waits long enough to be told. */
+/* Reports no progress, because nobody waits long enough to see it. */
 void sandbox_progress(double done) {
     (void)done;
 }
 
-/* A page reads the one file that is dropped on it. */
-int sandbox_open(const char *name, int *number, cli_error *error) {
+/* Opens nothing: a page reads only the file that is dropped on it. */
+int sandbox_open(const char *name, int *number, base_error *error) {
     *number = -1;
-    cli_fail(error, "file",
-             "refers to another file, \"%.200s\": use a .glb, which holds everything", name);
+    base_fail(error, "file",
+              "refers to another file, \"%.200s\": use a .glb, which holds everything", name);
     return -1;
 }
 
@@ -53,36 +56,47 @@ int sandbox_open(const char *name, int *number, cli_error *error) {
 static bool fill_materials(void) {
     const scene *w = &demo.world;
     demo.materials = calloc(w->material_count + 1, sizeof *demo.materials);
-    demo.reflectors = calloc(w->material_count + 1, sizeof *demo.reflectors);
-    if (!demo.materials || !demo.reflectors)
-        return cli_fail(&demo.error, w->name, "does not fit into memory");
+    demo.constants = calloc(w->material_count + 1, sizeof *demo.constants);
+    if (!demo.materials || !demo.constants)
+        return base_fail(&demo.error, w->name, "does not fit into memory");
     for (size_t i = 0; i < w->material_count; i++) {
         gpu_fill_material(&w->materials[i], i, &demo.materials[i]);
-        demo.reflectors[i] = gpu_reflector(&w->materials[i]);
+        demo.constants[i] = gpu_material_constants(&w->materials[i]);
     }
     return true;
+}
+
+static bool allocate_lights(void) {
+    if (!demo.moved)
+        demo.moved = calloc(SCENE_LIGHTS_MAX, sizeof *demo.moved);
+    if (!demo.lights)
+        demo.lights = calloc(SCENE_LIGHTS_MAX, sizeof *demo.lights);
+    if (!demo.emitters)
+        demo.emitters = calloc(SCENE_LIGHTS_MAX, sizeof *demo.emitters);
+    return (demo.moved && demo.lights && demo.emitters) ||
+           base_fail(&demo.error, "lights", "do not fit into memory");
 }
 
 static void close_scene(void) {
     animation_close(demo.path);
     demo.path = NULL;
     free(demo.materials);
-    free(demo.reflectors);
+    free(demo.constants);
     demo.materials = NULL;
-    demo.reflectors = NULL;
+    demo.constants = NULL;
     scene_free(&demo.world);
 }
 
-/* Packs what has been built and makes it the scene; what is wrong with it leaves the one before. */
+/* Packs what has been built and makes it the scene; on failure the scene before it stays. */
 static bool take(scene_builder *builder, const char *name) {
     void *block = NULL;
     size_t size = 0;
     scene world;
     builder_flatten(builder);
-    if (!texture_decode_all(builder, name, &demo.error))
+    if (!allocate_lights() || !texture_decode_all(builder, name, &demo.error))
         return false;
     if (!builder_pack(builder, &block, &size))
-        return cli_fail(&demo.error, name, "does not fit into memory");
+        return base_fail(&demo.error, name, "does not fit into memory");
     if (!blob_validate(block, size, false, name, &demo.error) ||
         !blob_open(block, size, name, &world, &demo.error)) {
         free(block);
@@ -93,7 +107,7 @@ static bool take(scene_builder *builder, const char *name) {
     return fill_materials() && animation_open("orbit", &demo.world, &demo.path, &demo.error);
 }
 
-/* These return NULL, or what is wrong. */
+/* Open a scene; each returns NULL, or what is wrong. */
 EXPORT const char *demo_open_builtin(const char *name) {
     scene_builder builder = { 0 };
     const bool ok = builtin_make(name, &builder, &demo.error) && take(&builder, "builtin");
@@ -109,25 +123,25 @@ EXPORT const char *demo_open_file(const void *data, size_t size) {
     bool ok = origin_read(gltf_add, data, size, &sources, &builder, &demo.error);
     sources_free(&sources);
     if (ok && builder_count(&builder, BLOB_INDICES) == 0)
-        ok = cli_fail(&demo.error, name, "has no triangles");
+        ok = base_fail(&demo.error, name, "has no triangles");
     ok = ok && take(&builder, name);
     builder_free(&builder);
     demo.lanterns = ok ? 0 : demo.lanterns;
     return outcome(ok);
 }
 
-/* What of the file is not shown, or "". */
-EXPORT const char *demo_left_out(void) {
+/* Returns what of the file is not shown, or "". */
+EXPORT const char *demo_unsupported(void) {
     static char text[2 * SCENE_NAME_SIZE + 32];
     text[0] = '\0';
-    if (demo.world.left_out_count > 0)
-        scene_left_out_text(&demo.world.left_out[0], text, sizeof text);
+    if (demo.world.unsupported_count > 0)
+        scene_unsupported_text(&demo.world.unsupported[0], text, sizeof text);
     return text;
 }
 
 typedef struct demo_draw {
     uint32_t first_index, index_count, material, masked, double_sided;
-    int32_t maps[SHARED_MAPS]; /* textures, or -1 */
+    int32_t maps[SHARED_MAPS]; /* indices of textures, or -1 */
 } demo_draw;
 
 EXPORT size_t demo_draw_count(void) {
@@ -148,13 +162,13 @@ EXPORT const demo_draw *demo_draw_at(size_t i) {
     return &draw;
 }
 
-/* Pointers, counts and sizes, in the order of library.js. */
+/* Returns pointers, counts and sizes, in the order of library.js. */
 EXPORT const uintptr_t *demo_arrays(void) {
     static uintptr_t arrays[9];
     const scene *w = &demo.world;
     const uintptr_t values[] = {
         (uintptr_t)w->vertices, w->vertex_count,           (uintptr_t)w->indices,
-        w->index_count,         (uintptr_t)demo.materials, (uintptr_t)demo.reflectors,
+        w->index_count,         (uintptr_t)demo.materials, (uintptr_t)demo.constants,
         w->material_count,      (uintptr_t)w->minimum,     (uintptr_t)w->maximum,
     };
     static_assert(sizeof arrays == sizeof values, "as many");
@@ -166,7 +180,7 @@ EXPORT size_t demo_material_size(void) {
     return sizeof(shared_material);
 }
 
-/* Width, height, 1 of colors, wrapping in both directions, and the texels. */
+/* Returns width, height, 1 for colors, wrapping in both directions, and the texels. */
 EXPORT const uintptr_t *demo_texture(size_t i) {
     static uintptr_t texture[6];
     const scene_texture *t = &demo.world.textures[i];
@@ -181,7 +195,7 @@ EXPORT size_t demo_texture_count(void) {
     return demo.world.texture_count;
 }
 
-/* Eye, target, up, and the field of view. */
+/* Returns eye, target, up, and the field of view. */
 EXPORT const float *demo_camera(float aspect) {
     static float camera[10];
     const scene_camera c = scene_default_camera(&demo.world, aspect);
@@ -194,7 +208,7 @@ EXPORT const float *demo_camera(float aspect) {
 
 /* --- lights ----------------------------------------------------------------------------------- */
 
-/* So many in all: the lanterns, if the scene has any, and others. */
+/* Scatters lights, `count` in all: the lanterns, if the scene has any, and others. */
 EXPORT const char *demo_scatter_lights(int count, uint32_t seed) {
     const int others = count - (int)demo.lanterns;
     if (demo.lanterns == 0)
@@ -208,8 +222,8 @@ EXPORT const shared_light *demo_lights(void) {
     return demo.lights;
 }
 
-/* Puts them where they are after so many seconds; returns how many there are. Of a file's other
- * kinds only spheres shine here. */
+/* Moves the lights to where they are after so many seconds; returns how many there are. Of a file's
+ * lights only spheres shine here. */
 EXPORT size_t demo_move_lights(double seconds) {
     size_t count = 0;
     animation_move_all(demo.path, &demo.world, seconds, demo.moved);
@@ -237,7 +251,7 @@ EXPORT void demo_drag_light(size_t i, float x, float y, float z) {
 
 EXPORT const float *demo_ggx_texels(void) {
     static float texels[LMP_GGX_TEXELS * 4];
-    lmp_lobe_ggx_texels(texels);
+    lmp_lobe_copy_ggx_texels(texels);
     return texels;
 }
 
@@ -279,7 +293,7 @@ static float *lay_out(const lmp_preintegrated_lobe_info *info, demo_lobe *to) {
     return pairs;
 }
 
-/* NULL if it cannot be made. The last one is gone. */
+/* Makes a lobe and frees the one before; returns NULL if it cannot be made. */
 EXPORT const demo_lobe *demo_make_lobe(int bands, int window) {
     static demo_lobe made;
     const lmp_preintegrated_lobe_desc desc = { .bands = bands, .window = (lmp_window)window };
@@ -304,11 +318,11 @@ EXPORT const demo_lobe *demo_make_lobe(int bands, int window) {
 
 enum { POINTS = 256 };
 
-/* Shades vertices of the scene under all its lights by the library's kernels, with vectors or
- * without; returns how many points times lights that were. The page looks at the clock. */
+/* Shades vertices of the scene under all its lights by the library's kernels, with vector
+ * instructions or without; returns the number of points times lights. The page measures the time.
+ */
 EXPORT size_t demo_shade(int bands, int vectors) {
     static lmp_surface surfaces[POINTS];
-    static lmp_light lights[SCENE_LIGHTS_MAX];
     static float rgb[3 * POINTS];
     const lmp_material clay = { .diffuse = { 0.5f, 0.5f, 0.5f },
                                 .specular = { 0.04f, 0.04f, 0.04f },
@@ -324,7 +338,7 @@ EXPORT size_t demo_shade(int bands, int vectors) {
                             .view = normal };
     }
     for (size_t i = 0; i < w->light_count; i++)
-        lights[i] = w->lights[i].emitter;
+        demo.emitters[i] = w->lights[i].emitter;
     const size_t stride = sizeof *surfaces;
     const lmp_surfaces all = {
         .position = { &surfaces->position.x, &surfaces->position.y, &surfaces->position.z, stride },
@@ -332,7 +346,7 @@ EXPORT size_t demo_shade(int bands, int vectors) {
         .view = { &surfaces->view.x, &surfaces->view.y, &surfaces->view.z, stride },
         .material = &clay
     };
-    lmp_cpu_mask(vectors ? LMP_CPU_ALL : LMP_CPU_SCALAR);
-    lmp_shade_n(&settings, &all, POINTS, lights, w->light_count, 0, rgb);
+    lmp_cpu_limit(vectors ? LMP_CPU_ALL : LMP_CPU_SCALAR);
+    lmp_shade_n(&settings, &all, POINTS, demo.emitters, w->light_count, (lmp_rgb_array) { rgb, 0 });
     return POINTS * w->light_count;
 }

@@ -2,9 +2,9 @@
 // Lampion's C library and scenes as WebAssembly (demo.c).
 import bytes from 'demo.wasm';
 
-const VERTEX = 16, LIGHT = 12, REFLECTOR = 8; // floats
+const VERTEX = 16, LIGHT = 12, CONSTANTS = 8; // in floats
 
-// A page has no files: whatever asks for them, for a clock or for memory's growth is told -1.
+// A page has no files: any call for files, a clock or more memory returns -1.
 const nothing = new Proxy({}, { get: () => () => -1 });
 
 export async function loadLibrary() {
@@ -18,7 +18,7 @@ export async function loadLibrary() {
         const all = new Uint8Array(memory(), at);
         return new TextDecoder().decode(all.subarray(0, all.indexOf(0)));
     };
-    // runs with a copy of an array in C's memory
+    // Runs a function with a copy of an array in C's memory.
     const lend = (array, run) => {
         const at = c.malloc(array.byteLength);
         new Uint8Array(memory(), at, array.byteLength).set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
@@ -33,16 +33,16 @@ export async function loadLibrary() {
     return {
         openBuiltin: (name) => lend(new TextEncoder().encode(`${name}\0`), (at) => check(c.demo_open_builtin(at))),
         openFile: (data) => lend(data, (at) => check(c.demo_open_file(at, data.byteLength))),
-        leftOut: () => text(c.demo_left_out()),
-        // views of C's memory, valid until the next call that allocates
+        unsupported: () => text(c.demo_unsupported()),
+        // Returns views of C's memory, valid until the next call that allocates.
         scene() {
-            const [vertices, vertexCount, indices, indexCount, materials, reflectors, materialCount, minimum, maximum] =
+            const [vertices, vertexCount, indices, indexCount, materials, materialConstants, materialCount, minimum, maximum] =
                 words(c.demo_arrays(), 9);
             const materialSize = c.demo_material_size();
             return {
                 vertices: floats(vertices, VERTEX * vertexCount), indices: words(indices, indexCount), materialCount, materialSize,
                 materials: new Uint8Array(memory(), materials, materialSize * materialCount),
-                reflectors: floats(reflectors, REFLECTOR * materialCount),
+                materialConstants: floats(materialConstants, CONSTANTS * materialCount),
                 minimum: [...floats(minimum, 3)], maximum: [...floats(maximum, 3)],
                 draws: Array.from({ length: c.demo_draw_count() }, (none, i) => {
                     const [first, count, material, masked, doubleSided, ...maps] = words(c.demo_draw_at(i), 15);
@@ -59,7 +59,7 @@ export async function loadLibrary() {
             return { eye: [...all.subarray(0, 3)], target: [...all.subarray(3, 6)], up: [...all.subarray(6, 9)], fov: all[9] };
         },
         scatterLights: (count, seed) => check(c.demo_scatter_lights(count, seed)),
-        // the lights as the shaders read them: center, radius, radiance, kind, cone
+        // Returns the lights as the shaders read them: center, radius, radiance, kind, cone.
         lights(seconds) {
             const count = c.demo_move_lights(seconds);
             return floats(c.demo_lights(), LIGHT * count);
@@ -67,7 +67,7 @@ export async function loadLibrary() {
         dragLight: (i, [x, y, z]) => c.demo_drag_light(i, x, y, z),
         ggxTexels: () => floats(c.demo_ggx_texels(), 4 * 5152),
         exposure: (width, height, rgb) => lend(rgb, (at) => c.demo_exposure(width, height, at)),
-        // a preintegrated lobe: its numbers, and its texture of pairs
+        // Returns a preintegrated lobe: its numbers, and its texture of pairs.
         lobe(bands, window) {
             const at = c.demo_make_lobe(bands, window);
             if (!at)
@@ -79,7 +79,7 @@ export async function loadLibrary() {
                 width: 2048, height, pairs: floats(pairs, 2 * 2048 * height),
             };
         },
-        // nanoseconds a point and light at so many bands; the least of some runs
+        // Returns nanoseconds per point and light at so many bands, the least of several runs.
         cost(bands, vectors) {
             let least = Infinity;
             for (let i = 0; i < 5; i++) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page: what is chosen in the panel or said after # in the address (docs/web.md), and hands on the scene.
+// The page: applies what is chosen in the panel or given after # in the address (docs/web.md), and
+// passes the scene on.
 import { dragged, makeCamera, pick } from './camera.js';
 import { loadLibrary } from './library.js';
 import { makeRenderer, methods } from './renderer.js';
@@ -33,13 +34,13 @@ function openBuiltin() {
     frameScene();
 }
 
-// The atrium's own lanterns are the first 30, and rest.
+// The atrium's own lanterns are the first 30, and do not move.
 function scatterLights() {
     library.scatterLights(Math.min(state.lights, renderer.lightsMost), 1);
     exposure = Number(asked.get('exposure') ?? 0);
 }
 
-// What is no scene leaves the one that is shown.
+// Opens a file; one that is not a scene leaves the present scene in place.
 async function openFile(file) {
     tell(`Reading ${file.name} …`);
     const data = new Uint8Array(await file.arrayBuffer());
@@ -49,8 +50,8 @@ async function openFile(file) {
         tell(`${file.name}: ${error.message.replace(/^file: /, '')}`, true);
         return;
     }
-    const leftOut = library.leftOut();
-    tell(leftOut && `${file.name}: left out: ${leftOut}${/file|image/.test(leftOut) ? '. Use a .glb, which holds its images.' : ''}`);
+    const unsupported = library.unsupported();
+    tell(unsupported && `${file.name}: left out: ${unsupported}${/file|image/.test(unsupported) ? '. Use a .glb, which holds its images.' : ''}`);
     state.scene = file.name;
     Object.assign(element('dropped'), { hidden: false, textContent: file.name, value: file.name });
     scatterLights();
@@ -68,7 +69,7 @@ function fit() {
     canvas.height = Math.max(1, Math.round(innerHeight * ratio));
 }
 
-// Milliseconds from one frame to the next; of software rendering that is what a frame takes.
+// Milliseconds from one frame to the next; with software rendering that is the time of a frame.
 let mean = 0, told = 0, slow = 0;
 function measure(spent, now) {
     mean = mean ? 0.8 * mean + 0.2 * spent : spent;
@@ -76,7 +77,7 @@ function measure(spent, now) {
         element('frame').value = `${mean.toFixed(mean < 100 ? 1 : 0)} ms · ${canvas.width}×${canvas.height}`;
         told = now;
     }
-    // a step at a time, after some frames that were slow
+    // one step at a time, after several slow frames
     slow = spent > 50 ? slow + 1 : 0;
     if (slow >= 4 && autoScale > 0.3) {
         autoScale *= 0.7;
@@ -93,8 +94,8 @@ function draw() {
     renderer.draw(camera, lights, settings, other, state.split ? state.divider : 1, exposure);
 }
 
-// What is shown stays until something changes, which takes some frames to be measured: a still page
-// costs nothing.
+// Nothing is drawn again until something changes, which takes some frames to be measured: a still
+// page costs nothing.
 let due = 2, last = 0;
 function frame(now) {
     const drawing = renderer && (state.moving || due > 0);

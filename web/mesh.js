@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A scene's triangles, materials and textures by WebGL 2, as app/render/gl/mesh.c has them by OpenGL.
+// Draws a scene's triangles, materials and textures by WebGL 2, as app/render/gl/mesh.c does by
+// OpenGL.
 const ATTRIBUTES = [[3, 'FLOAT', 0], [3, 'FLOAT', 12], [4, 'FLOAT', 24], [4, 'FLOAT', 40], [4, 'UNSIGNED_SHORT', 56]];
 
-// A texture of one level, of numbers that shaders look up.
+// Makes a texture of one level, of numbers that shaders look up.
 export function makeTable(gl, format, width, height, data = null, layout = gl.RGBA, filter = gl.NEAREST) {
     const texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
@@ -52,7 +53,7 @@ function makeVertexArray(gl, { vertices, indices }) {
     return { array, buffers };
 }
 
-// The materials' blocks, each where a block may begin.
+// Makes the materials' blocks, each at an offset where a block may begin.
 function makeBlocks(gl, { materials, materialSize, materialCount }) {
     const align = gl.getParameter(gl.UNIFORM_BUFFER_OFFSET_ALIGNMENT), stride = Math.ceil(materialSize / align) * align;
     const blocks = new Uint8Array(stride * materialCount);
@@ -65,12 +66,12 @@ function makeBlocks(gl, { materials, materialSize, materialCount }) {
 export function makeMesh(gl, scene) {
     const { array, buffers } = makeVertexArray(gl, scene), blocks = makeBlocks(gl, scene);
     const maps = scene.textures.map((texture) => makeMap(gl, texture));
-    // F0 and F90 alone
-    const dielectrics = scene.reflectors.filter((x, i) => i % 8 < 4);
-    const reflectors = makeTable(gl, gl.RGBA32F, scene.materialCount, 1, dielectrics);
+    // only F0 and F90
+    const dielectrics = scene.materialConstants.filter((x, i) => i % 8 < 4);
+    const materialConstants = makeTable(gl, gl.RGBA32F, scene.materialCount, 1, dielectrics);
     const draws = [...scene.draws.filter(({ masked }) => !masked), ...scene.draws.filter(({ masked }) => masked)];
     return {
-        reflectors,
+        materialConstants,
         draw(opaque, masked, units) {
             gl.bindVertexArray(array);
             gl.cullFace(gl.BACK);
@@ -83,7 +84,7 @@ export function makeMesh(gl, scene) {
             }
         },
         delete() {
-            [...maps, reflectors].forEach((texture) => gl.deleteTexture(texture));
+            [...maps, materialConstants].forEach((texture) => gl.deleteTexture(texture));
             [...buffers, blocks.buffer].forEach((buffer) => gl.deleteBuffer(buffer));
             gl.deleteVertexArray(array);
         },

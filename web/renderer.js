@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene by WebGL 2 as the program draws it: a G-buffer, then one pass that shades and shows.
+// Draws a scene by WebGL 2 as the program does: a G-buffer, then one pass that shades and shows it.
 import { bindTexture, makeMesh, makeTable } from './mesh.js';
 import { makeProgram, stages } from './shaders.js';
 import { makeTargets } from './targets.js';
@@ -11,9 +11,9 @@ export const methods = {
     coefficients: { bands: 10, define: '#define SHADE_COEFFICIENTS' },
     preintegrated: { bands: 100, define: '#define SHADE_PREINTEGRATED' },
 };
-export const windows = ['none', 'hanning', 'lanczos']; // lmp_window
+export const windows = ['none', 'hanning', 'lanczos']; // in the order of lmp_window
 
-// The programs that shade, made when they are first asked for.
+// Makes the programs that shade, each when it is first used.
 function makeShades(gl, lightsMost) {
     const programs = new Map();
     return ({ method, bands, window }, radiance) => {
@@ -28,7 +28,7 @@ ${radiance ? '#define RADIANCE' : ''}`, lightsMost));
     };
 }
 
-// Preintegrated lobes as textures, made when they are first asked for.
+// Makes preintegrated lobes as textures, each when it is first used.
 function makeLobes(gl, library) {
     const lobes = new Map(), format = gl.getExtension('OES_texture_float_linear') ? gl.RG32F : gl.RG16F;
     return ({ method, bands, window }) => {
@@ -98,10 +98,10 @@ export function makeRenderer(canvas, library) {
         gl.disable(gl.DEPTH_TEST);
     }
 
-    // shades a part of what is bound, x from … to of its width
+    // Shades a part of what is bound, x from … to of its width.
     function shade(settings, { width, height, exposure = 1, radiance = false, from = 0, to = 1 }) {
         const { program, uniforms } = shades(settings, radiance), lobe = lobes(settings);
-        const textures = { ggx_texels: ggx, reflectors: mesh.reflectors, ...lobe.textures, ...targets.inputs() };
+        const textures = { ggx_texels: ggx, material_constants: mesh.materialConstants, ...lobe.textures, ...targets.inputs() };
         gl.useProgram(program);
         Object.entries(textures).forEach(([name, texture], unit) => {
             bindTexture(gl, unit, texture);
@@ -124,7 +124,7 @@ export function makeRenderer(canvas, library) {
             mesh?.delete();
             mesh = makeMesh(gl, scene);
         },
-        // `other` is shown from `split`, a part of the width, on
+        // `other` is shown from `split` on, a fraction of the width.
         draw(camera, lights, settings, other, split, exposure) {
             const { width, height } = canvas;
             drawGeometry(camera, lights);
@@ -133,7 +133,7 @@ export function makeRenderer(canvas, library) {
             if (split < 1)
                 shade(other, { width, height, exposure, from: split });
         },
-        // what the program would expose this image by
+        // Returns the exposure that the program would choose for this image.
         exposure(camera, lights, settings) {
             const width = 160, height = 90, rgba = new Float32Array(4 * width * height);
             const target = makeTable(gl, gl.RGBA32F, width, height), framebuffer = gl.createFramebuffer();

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* shade.frag - shade.comp and tone.frag in one pass, for WebGL 2: a pixel of the G-buffer, shaded by
- * SHADE and shown, or with RADIANCE given as it is. A page has no storage blocks: tables are textures. */
+/* shade.frag - shade.comp and tone.frag in one pass, for WebGL 2: shades a pixel of the G-buffer by
+ * SHADE and converts it for display or, with RADIANCE, returns its radiance. A page has no storage
+ * blocks: tables are textures. */
 #include "gbuffer.glsl"
 #include "shared.h"
 #include "camera.glsl"
@@ -25,17 +26,17 @@ uniform vec4 lobe_shape;
 #include "preintegrated_lobe.glsl"
 #endif
 
-uniform sampler2D base_metallic, normals, roughness_kind, emissions, layers, depths;
-uniform sampler2D reflectors; /* F0 and F90 of the materials' dielectrics */
-uniform vec2 pixels;          /* of the G-buffer, to one of the target */
+uniform sampler2D base_metallic, normals, roughness_kind, emissions, weights, depths;
+uniform sampler2D material_constants; /* F0 and F90 of the materials' dielectrics */
+uniform vec2 pixels;          /* pixels of the G-buffer per pixel of the target */
 uniform float exposure;
 out vec4 color;
 
 vec3 shade_surface(ivec2 at, int kind) {
     camera_ray ray = camera_ray_through((vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0);
     vec4 base = texelFetch(base_metallic, at, 0);
-    vec4 reflector = texelFetch(reflectors, ivec2(kind - SHARED_KIND_SURFACE, 0), 0);
-    float weight = reflector.a * texelFetch(layers, at, 0).g;
+    vec4 constants = texelFetch(material_constants, ivec2(kind - SHARED_KIND_SURFACE, 0), 0);
+    float weight = constants.a * texelFetch(weights, at, 0).g;
     lmp_surface surface;
     surface.position = ray.from + ray.along * camera_distance(texelFetch(depths, at, 0).r);
     surface.normal = gbuffer_decode_normal(texelFetch(normals, at, 0).rg);
@@ -43,7 +44,7 @@ vec3 shade_surface(ivec2 at, int kind) {
     lmp_metallic_roughness material = lmp_metallic_roughness(
         gbuffer_decode_color(base.rgb), base.a, texelFetch(roughness_kind, at, 0).r);
     lmp_lobes lobes =
-        lmp_lobes_of(surface, material, lmp_dielectric(min(reflector.rgb, 1.0) * weight, weight));
+        lmp_lobes_of(surface, material, lmp_dielectric(min(constants.rgb, 1.0) * weight, weight));
     return SHADE(surface, lobes) + texelFetch(emissions, at, 0).rgb;
 }
 
@@ -53,7 +54,7 @@ float transfer(float x) {
 }
 
 void main() {
-    /* the G-buffer's rows run from the top, the page's from the bottom */
+    /* The G-buffer's rows run from the top, the page's from the bottom. */
     ivec2 at = ivec2(gl_FragCoord.xy * pixels);
     at.y = int(size_lights.y) - 1 - at.y;
     int kind = gbuffer_decode_kind(texelFetch(roughness_kind, at, 0).g);

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// The program's own shaders in GLSL ES 3.00, which has no #include and no numbers for what passes from
-// stage to stage.
-import camera from '../shaders/camera.glsl';
-import coat from '../shaders/coat.glsl';
-import coefficients from '../shaders/coefficients.glsl';
-import gbuffer from '../shaders/gbuffer.glsl';
-import ggx from '../shaders/ggx.glsl';
-import lampion from '../shaders/lampion.glsl';
-import light from '../shaders/light.glsl';
-import lightFragment from '../shaders/light.frag';
-import lightVertex from '../shaders/light.vert';
-import lobe from '../shaders/preintegrated_lobe.glsl';
-import lookup from '../shaders/preintegrated_lookup.h';
-import screen from '../shaders/screen.vert';
-import shared from '../shaders/shared.h';
-import surfaceFragment from '../shaders/surface.frag';
-import surfaceVertex from '../shaders/surface.vert';
-import tone from '../shaders/tone.h';
+// The program's own shaders in GLSL ES 3.00, which has no #include and no locations for varyings
+// between stages.
+import camera from '../shaders/program/camera.glsl';
+import coat from '../shaders/lampion/coat.glsl';
+import coefficients from '../shaders/lampion/coefficients.glsl';
+import gbuffer from '../shaders/program/gbuffer.glsl';
+import ggx from '../shaders/lampion/ggx.glsl';
+import lampion from '../shaders/lampion/lampion.glsl';
+import light from '../shaders/program/light.glsl';
+import lightFragment from '../shaders/program/light.frag';
+import lightVertex from '../shaders/program/light.vert';
+import lobe from '../shaders/lampion/preintegrated_lobe.glsl';
+import lookup from '../shaders/lampion/preintegrated_lookup.h';
+import screen from '../shaders/program/screen.vert';
+import shared from '../shaders/program/shared.h';
+import surfaceFragment from '../shaders/program/surface.frag';
+import surfaceVertex from '../shaders/program/surface.vert';
+import tone from '../shaders/program/tone.h';
 import shade from './shade.frag';
 
 const files = {
@@ -48,7 +48,8 @@ function compile(gl, type, text) {
     return shader;
 }
 
-// A program of a pair of stages, `defines` before each. Blocks are bound where shared.h says.
+// Makes a program of a pair of stages, with `defines` before each. Blocks are bound where shared.h
+// says.
 export function makeProgram(gl, [vertex, fragment], defines, lightsMost) {
     const head = `#version 300 es
 precision highp float; precision highp int; precision highp sampler2D;

@@ -3,7 +3,7 @@
 import { makeTable } from './mesh.js';
 
 // the samplers of shade.frag, in the order of the textures
-const INPUTS = ['base_metallic', 'normals', 'roughness_kind', 'emissions', 'layers', 'depths'];
+const INPUTS = ['base_metallic', 'normals', 'roughness_kind', 'emissions', 'weights', 'depths'];
 
 export function makeTargets(gl) {
     const norm16 = gl.getExtension('EXT_texture_norm16'), two = norm16 ? norm16.RG16_EXT : gl.RG32F;
@@ -25,7 +25,7 @@ export function makeTargets(gl) {
             gl.drawBuffers(attachments);
             Object.assign(targets, { width, height });
         },
-        // empty, and to be drawn to
+        // Clears the targets and binds them.
         begin() {
             gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
             gl.viewport(0, 0, targets.width, targets.height);

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion basis - the paper's figure 2: the basis functions as lobes, a row a band. */
+/* lampion basis - the paper's figure 2: the basis functions as lobes, a row per band. */
+#include "app/base/cli.h"
+#include "app/base/progress.h"
 #include "app/command/command.h"
-#include "app/figure/figure.h"
+#include "app/image/figure.h"
 
 #include <lampion/sh.h>
 
@@ -32,7 +34,8 @@ static float basis_value(lmp_vec3 direction, const void *user) {
     return lobe->scale * sh[LMP_SH_INDEX(lobe->l, lobe->m)];
 }
 
-/* The largest magnitude of Y_lm: all its meridians through a crest are alike. */
+/* Returns the largest magnitude of Y_lm, sought along one meridian: all meridians through a crest
+ * are alike. */
 static float basis_peak(int l, int m) {
     const int steps = 2048;
     const float quarter = 1.57079633f;
@@ -48,7 +51,8 @@ static float basis_peak(int l, int m) {
     return peak;
 }
 
-/* Where things are: a margin on the left for the bands' names, a line below for the orders'. */
+/* The layout of the figure: a margin on the left for the names of bands, and a line below for
+ * orders. */
 typedef struct layout {
     int bands, cell, left, top, text_height;
 } layout;
@@ -56,7 +60,7 @@ typedef struct layout {
 static layout lay_out(int bands, const int size[2]) {
     layout y = { .bands = bands };
     const int columns = 2 * bands - 1;
-    /* the margins take 0.6 of a cell each way */
+    /* the margins take 0.6 of a cell in each direction */
     const int by_width = size[0] * 10 / (columns * 10 + 12),
               by_height = size[1] * 10 / (bands * 10 + 8);
     y.cell = by_width < by_height ? by_width : by_height;
@@ -88,12 +92,12 @@ static void draw_names(image *pixels, const layout *y) {
     }
 }
 
-static bool draw_basis(image *pixels, int bands, cli_error *error) {
+static bool draw_basis(image *pixels, int bands, base_error *error) {
     const int size[2] = { pixels->width, pixels->height };
     const layout y = lay_out(bands, size);
     if (y.cell < 4)
-        return cli_fail(error, NULL, "%d bands need a larger image than %dx%d", bands, size[0],
-                        size[1]);
+        return base_fail(error, NULL, "%d bands need a larger image than %dx%d", bands, size[0],
+                         size[1]);
     figure_fill(pixels, (figure_box) { 0, 0, size[0], size[1] }, paper);
     figure_box column = cell_of(&y, 0, 0);
     column.height = y.cell * bands + y.cell / 2;
@@ -107,15 +111,15 @@ static bool draw_basis(image *pixels, int bands, cli_error *error) {
         const int l = (int)sqrt((double)k), m = k - l * l - l;
         const basis_lobe basis = { l, m, 1.0f / basis_peak(l, m) };
         const figure_lobe lobe = { basis_value, &basis, red, green };
-        cli_error lobe_error;
+        base_error lobe_error;
         ok = figure_draw_lobe(pixels, cell_of(&y, l, m), &lobe, &lobe_error) && ok;
         int done;
 #pragma omp atomic capture
         done = ++drawn;
-        cli_progress("drawing", (double)done / (bands * bands));
+        progress_show("drawing", (double)done / (bands * bands));
     }
-    cli_progress_end();
-    return ok || cli_fail(error, NULL, "out of memory for the lobes");
+    progress_end();
+    return ok || base_fail(error, NULL, "out of memory for the lobes");
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -135,12 +139,12 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!output)
         return cli_usage_output(command, "FILE");
     image pixels = { 0 };
-    cli_error error;
+    base_error error;
     const bool ok =
         image_check_path(output, &error) && image_create(&pixels, size[0], size[1], &error) &&
         draw_basis(&pixels, bands, &error) && image_write_figure(&pixels, output, &error);
     image_free(&pixels);
-    return ok ? CLI_OK : cli_report(&error);
+    return ok ? BASE_OK : base_report(&error);
 }
 
 const cli_command command_basis = {

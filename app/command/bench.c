@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion bench - what the kernels and the shaders cost (docs/benchmarks.md). */
-#include "app/bench/bench.h"
+/* lampion bench - the cost of the kernels and the shaders (docs/benchmarks.md). */
+#include "app/study/bench.h"
+#include "app/base/cli.h"
 #include "app/command/command.h"
-#include "app/override/override.h"
+#include "app/render/renderer/override.h"
 
 #include <string.h>
 
@@ -48,7 +49,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
     if (count == 1 && strcmp(operands[0], "gpu") == 0) {
-        lmp_cpu_mask((unsigned)o.mask);
+        lmp_cpu_limit((unsigned)o.mask);
         return bench_gpu(command, &o);
     }
     if (count != 1)

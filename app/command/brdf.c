@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion brdf - what is in a material, its values, its table, its image, its other formats. */
+/* lampion brdf - the properties of a material, its values, its table, its plot, and conversion to
+ * other formats. */
 #include "app/command/brdf.h"
-#include "app/bake/bake.h"
-#include "app/cli/printable.h"
-#include "app/csv/csv.h"
-#include "app/method/method.h"
+#include "app/base/cli.h"
+#include "app/base/csv.h"
+#include "app/base/file_writer.h"
+#include "app/base/printable.h"
+#include "app/base/progress.h"
+#include "app/render/method.h"
+#include "app/scene/bake.h"
 
 #include <assert.h>
 #include <math.h>
@@ -27,7 +31,7 @@ static void print_nodes(const lmp_brdf_info *info) {
 
 static const struct {
     const char *name;
-    void (*print_samples)(const lmp_brdf_info *info); /* NULL: it is a formula */
+    void (*print_samples)(const lmp_brdf_info *info); /* NULL: a formula, without samples */
 } kinds[] = {
     [LMP_BRDF_LAMBERT] = { "Lambert", NULL },
     [LMP_BRDF_PHONG] = { "Phong", NULL },
@@ -37,7 +41,7 @@ static const struct {
     [LMP_BRDF_RGL] = { "RGL .bsdf tensor file", print_nodes },
     [LMP_BRDF_SHEEN] = { "sheen", NULL },
 };
-static_assert(sizeof kinds / sizeof *kinds == LMP_BRDF_KINDS, "a row for each kind");
+static_assert(sizeof kinds / sizeof *kinds == LMP_BRDF_KIND_COUNT, "a row for each kind");
 
 static void print_table_info(const lmp_brdf_table *table) {
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
@@ -53,7 +57,7 @@ static void print_table_info(const lmp_brdf_table *table) {
     for (int k = 0; k < 8; k++) {
         const int view = k * (info.views - 1) / 7;
         lmp_rgb a, b;
-        lmp_brdf_table_albedo(table, view, 0, &a, &b);
+        lmp_brdf_table_find_albedo(table, view, 0, &a, &b);
         printf("  %6.2f   %.4f  %.4f  %.4f    %.4f  %.4f  %.4f\n",
                (double)info.theta_step * view * 180 / pi, (double)a.r, (double)a.g, (double)a.b,
                (double)b.r, (double)b.g, (double)b.b);
@@ -70,9 +74,9 @@ static void print_brdf_info(const material *m) {
     printf("memory     %zu bytes\n", info.bytes);
 }
 
-static bool print_info(const brdf_options *o, const material *m, cli_error *error) {
+static bool print_info(const brdf_options *o, const material *m, base_error *error) {
     printf("material   ");
-    cli_print_name(m->name);
+    printable_print(m->name);
     printf("\nformat     %s\n",
            m->table ? "Lampion table (.lmpt)" : kinds[lmp_brdf_describe(m->brdf).kind].name);
     if (m->file_size)
@@ -88,7 +92,7 @@ static bool print_info(const brdf_options *o, const material *m, cli_error *erro
     for (int view = 0; view < info.views; view++)
         for (int azimuth = 0; azimuth < info.azimuths; azimuth++) {
             lmp_rgb a, b;
-            lmp_brdf_table_albedo(table, view, azimuth, &a, &b);
+            lmp_brdf_table_find_albedo(table, view, azimuth, &a, &b);
             most = fmax(most, fmax((double)a.r, fmax((double)a.g, (double)a.b)));
         }
     printf("\nenergy     largest albedo %.4f: %s\n", most,
@@ -99,7 +103,7 @@ static bool print_info(const brdf_options *o, const material *m, cli_error *erro
 
 /* --- eval ------------------------------------------------------------------------------------- */
 
-static bool eval_rows(const material *m, csv_reader *reader, cli_error *error) {
+static bool eval_rows(const material *m, csv_reader *reader, base_error *error) {
     static const char *const names[] = { "wi_x", "wi_y", "wi_z", "wo_x", "wo_y", "wo_z" };
     float v[6];
     csv_result result;
@@ -112,11 +116,11 @@ static bool eval_rows(const material *m, csv_reader *reader, cli_error *error) {
     return result == CSV_END;
 }
 
-/* The header line may be left out. */
-static bool evaluate(const brdf_options *o, const material *m, cli_error *error) {
+/* Evaluates the rows of a table of directions, whose header line is optional. */
+static bool evaluate(const brdf_options *o, const material *m, base_error *error) {
     (void)o;
     if (!m->brdf)
-        return cli_fail(error, m->name, "is a table, which holds no values of f_r to evaluate");
+        return base_fail(error, m->name, "is a table, which holds no values of f_r to evaluate");
     const int first = getc(stdin);
     ungetc(first, stdin);
     static csv_reader reader;
@@ -130,10 +134,11 @@ static bool evaluate(const brdf_options *o, const material *m, cli_error *error)
 
 /* --- bake, convert ---------------------------------------------------------------------------- */
 
-/* Into the cache, where render and view look, and into the file if one is given. */
-static bool bake_table(const brdf_options *o, const material *m, cli_error *error) {
+/* Tabulates a material into the cache, where render and view look, and into a file if one is
+ * given. */
+static bool bake_table(const brdf_options *o, const material *m, base_error *error) {
     if (!m->brdf && o->output)
-        return cli_fail(error, m->name, "is a table already");
+        return base_fail(error, m->name, "is a table already");
     lmp_brdf_table *table = NULL;
     lmp_preintegrated_brdf *preintegrated = NULL;
     const bool ok = material_bake(m, &o->table, &table, error) &&
@@ -144,22 +149,22 @@ static bool bake_table(const brdf_options *o, const material *m, cli_error *erro
     return ok;
 }
 
-static bool convert(const brdf_options *o, const material *m, cli_error *error) {
+static bool convert(const brdf_options *o, const material *m, base_error *error) {
     const char *extension = strrchr(o->output, '.');
     const bool merl = extension && strcmp(extension, ".binary") == 0;
     if (!m->brdf)
-        return cli_fail(error, m->name, "is a table, which cannot become a BRDF again");
+        return base_fail(error, m->name, "is a table, which cannot become a BRDF again");
     if (!merl && !(extension && strcmp(extension, ".bsdf") == 0))
-        return cli_fail(error, o->output, "unknown format (name it .binary or .bsdf)");
+        return base_fail(error, o->output, "unknown format (name it .binary or .bsdf)");
     void *data = NULL;
     size_t size = 0;
     const char *what = "sampling the BRDF";
     const lmp_host host = bake_host(&what);
-    const lmp_result result = merl ? lmp_brdf_write_merl(&host, m->brdf, &data, &size)
-                                   : lmp_brdf_write_rgl(&host, m->brdf, &data, &size);
-    cli_progress_end();
+    const lmp_result result = merl ? lmp_brdf_encode_merl(&host, m->brdf, &data, &size)
+                                   : lmp_brdf_encode_rgl(&host, m->brdf, &data, &size);
+    progress_end();
     if (result != LMP_OK)
-        return cli_fail(error, o->output, "%s", lmp_result_text(result));
+        return base_fail(error, o->output, "%s", lmp_result_text(result));
     const bool ok = file_write_whole(o->output, data, size, error);
     free(data);
     return ok;
@@ -167,8 +172,8 @@ static bool convert(const brdf_options *o, const material *m, cli_error *error) 
 
 /* --- bands ------------------------------------------------------------------------------------ */
 
-/* ∫ (f_r cos theta_i)² dw of green for one view; uniform in theta, for lobes at the pole are
- * narrow. */
+/* Integrates (f_r cos theta_i)² of green for one view, uniformly in theta, because lobes at the
+ * pole are narrow. */
 static double norm2(const lmp_brdf *brdf, double theta_o) {
     enum { THETAS = 2048, AZIMUTHS = 512 };
     const double wo[3] = { sin(theta_o), 0, cos(theta_o) };
@@ -184,21 +189,21 @@ static double norm2(const lmp_brdf *brdf, double theta_o) {
     return sum * (pi / 2 / THETAS) * (2 * pi / AZIMUTHS);
 }
 
-/* What is left out by n bands, ‖f cos - series‖ / ‖f cos‖ over all views at 0, 20, 40 and 60
- * degrees: left[n], n = 0 … LMP_BANDS_MAX. */
-static bool measure_bands(const material *m, double left[LMP_BANDS_MAX + 1], cli_error *error) {
+/* Measures the truncation error of n bands, ‖f cos - series‖ / ‖f cos‖ over all views at 0, 20, 40
+ * and 60 degrees: left[n], n = 0 … LMP_BANDS_MAX. */
+static bool measure_bands(const material *m, double left[LMP_BANDS_MAX + 1], base_error *error) {
     enum { VIEWS = 4, RINGS = 512 };
     const size_t plane = LMP_SH_COUNT(LMP_BANDS_MAX);
     float *sh = malloc(3 * plane * sizeof *sh);
     if (!sh)
-        return cli_fail(error, NULL, "out of memory");
+        return base_fail(error, NULL, "out of memory");
     double band[LMP_BANDS_MAX] = { 0 }, total = 0;
     for (int v = 0; v < VIEWS; v++) {
         const double theta = v * pi / 9;
         const lmp_vec3 wo = { (float)sin(theta), 0, (float)cos(theta) };
         if (lmp_brdf_project(NULL, LMP_BANDS_MAX, RINGS, m->brdf, wo, sh) != LMP_OK) {
             free(sh);
-            return cli_fail(error, m->name, "out of memory");
+            return base_fail(error, m->name, "out of memory");
         }
         for (int l = 0; l < LMP_BANDS_MAX; l++)
             for (int i = l * l; i < (l + 1) * (l + 1); i++)
@@ -222,18 +227,18 @@ static int bands_below(const double *left, double bound) {
     return -1;
 }
 
-static bool study_bands(const char *name, cli_error *error) {
+static bool study_bands(const char *name, base_error *error) {
     static const int columns[] = { 3, 5, 10, 20, 40, 80, 128 };
     double left[LMP_BANDS_MAX + 1];
     material m;
     if (!material_open(name, &m, error))
         return false;
-    bool ok = m.brdf || cli_fail(error, name, "is a table, which is truncated already");
+    bool ok = m.brdf || base_fail(error, name, "is a table, which is truncated already");
     ok = ok && measure_bands(&m, left, error);
     material_close(&m);
     if (!ok)
         return false;
-    cli_print_name(name);
+    printable_print(name);
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
         printf(",%.4f", left[columns[i]]);
     const int ten = bands_below(left, 0.1), one = bands_below(left, 0.01);
@@ -246,9 +251,9 @@ static bool study_bands(const char *name, cli_error *error) {
 
 static const struct {
     const char *name;
-    bool (*run)(const brdf_options *, const material *, cli_error *);
-    const char *writes; /* one of the endings' kinds, or NULL */
-    bool caches;        /* without a file too, of several materials */
+    bool (*run)(const brdf_options *, const material *, base_error *);
+    const char *writes; /* one of the kinds of endings, or NULL */
+    bool caches;        /* also works without a file, on several materials */
 } actions[] = {
     { "info", print_info, NULL, false },     { "eval", evaluate, NULL, false },
     { "bake", bake_table, "a table", true }, { "plot", brdf_plot, "an image", false },
@@ -262,9 +267,10 @@ static const struct {
     { ".binary", "a BRDF" }, { ".bsdf", "a BRDF" },
 };
 
-/* A name that belongs to a file of another kind is a mistake, better told before the work than
- * after it. */
-static bool check_ending(const char *action, const char *path, const char *kind, cli_error *error) {
+/* Rejects a name whose extension is for another kind of file, before the work rather than after
+ * it. */
+static bool check_ending(const char *action, const char *path, const char *kind,
+                         base_error *error) {
     const char *const ending = strrchr(path, '.');
     const char *right = NULL;
     bool other = false;
@@ -274,10 +280,10 @@ static bool check_ending(const char *action, const char *path, const char *kind,
             right = endings[i].ending;
         other = other || (!same && strcmp(endings[i].ending, ending) == 0);
     }
-    return !other || cli_fail(error, path, "%s writes %s (name it %s)", action, kind, right);
+    return !other || base_fail(error, path, "%s writes %s (name it %s)", action, kind, right);
 }
 
-/* What is no action is another mistake. */
+/* Whether an action writes a file; an unknown action is reported elsewhere. */
 static bool writes_file(const char *name) {
     for (size_t i = 0; i < sizeof actions / sizeof *actions; i++)
         if (strcmp(name, actions[i].name) == 0)
@@ -286,8 +292,8 @@ static bool writes_file(const char *name) {
 }
 
 static bool run_on(const brdf_options *o,
-                   bool (*action)(const brdf_options *, const material *, cli_error *),
-                   const char *name, cli_error *error) {
+                   bool (*action)(const brdf_options *, const material *, base_error *),
+                   const char *name, base_error *error) {
     material m;
     if (!material_open(name, &m, error))
         return false;
@@ -298,15 +304,15 @@ static bool run_on(const brdf_options *o,
 
 static int run_action(const cli_command *command, const brdf_options *o, int count,
                       char **operands) {
-    cli_error error;
+    base_error error;
     if (o->output && !writes_file(operands[0]))
         return cli_usage(command, "%s prints and writes no file: it has no -o", operands[0]);
     if (strcmp(operands[0], "list") == 0) {
         if (count != 1)
             return cli_usage(command, "list takes no MATERIAL, %d given", count - 1);
-        for (size_t i = 0; lmp_sgd_name(i); i++)
-            printf("sgd:%s\n", lmp_sgd_name(i));
-        return CLI_OK;
+        for (size_t i = 0; lmp_brdf_sgd_name(i); i++)
+            printf("sgd:%s\n", lmp_brdf_sgd_name(i));
+        return BASE_OK;
     }
     if (strcmp(operands[0], "bands") == 0) {
         if (count == 1)
@@ -314,8 +320,8 @@ static int run_action(const cli_command *command, const brdf_options *o, int cou
         puts("material,3,5,10,20,40,80,128,bands_for_10_percent,bands_for_1_percent");
         for (int i = 1; i < count; i++)
             if (!study_bands(operands[i], &error))
-                return cli_report(&error);
-        return CLI_OK;
+                return base_report(&error);
+        return BASE_OK;
     }
     for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
         if (strcmp(operands[0], actions[i].name) != 0)
@@ -326,11 +332,11 @@ static int run_action(const cli_command *command, const brdf_options *o, int cou
         if (actions[i].writes && !o->output && !caches)
             return cli_usage_output(command, "FILE");
         if (o->output && !check_ending(operands[0], o->output, actions[i].writes, &error))
-            return cli_report(&error);
+            return base_report(&error);
         bool ok = true;
         for (int k = 1; k < count && ok; k++)
             ok = run_on(o, actions[i].run, operands[k], &error);
-        return ok ? CLI_OK : cli_report(&error);
+        return ok ? BASE_OK : base_report(&error);
     }
     return cli_usage_operand(command, operands[0]);
 }
@@ -361,7 +367,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "size", 0, CLI_SIZE, o.size, "WxH", "pixels of the plot", 64, 8192, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
     };
-    int operand_count = 0, status = CLI_OK;
+    int operand_count = 0, status = BASE_OK;
     char **operands = NULL;
     if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
         return status;

@@ -4,7 +4,7 @@
 #define LAMPION_COMMAND_BRDF_H
 
 #include "app/command/command.h"
-#include "app/material/material.h"
+#include "app/scene/material.h"
 
 typedef struct brdf_options {
     const char *output;
@@ -13,8 +13,8 @@ typedef struct brdf_options {
     lmp_brdf_table_desc table;
 } brdf_options;
 
-/* Polar plots of the lobes in the plane of incidence, a row a view: f_r cos theta_i itself,
- * then from its series at several numbers of bands. */
-bool brdf_plot(const brdf_options *options, const material *material, cli_error *error);
+/* Plots the lobes in the plane of incidence in polar form, a row per view: f_r cos theta_i itself,
+ * then its series at several numbers of bands. */
+bool brdf_plot(const brdf_options *options, const material *material, base_error *error);
 
 #endif

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/command/brdf.h"
-#include "app/figure/figure.h"
+#include "app/image/figure.h"
 
 #include <lampion/sh.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,7 +15,7 @@ static const double degrees[ROWS] = { 0, 25, 50, 75 };
 static const lmp_rgb ink = { 0.13f, 0.14f, 0.17f }, paper = { 1, 1, 1 };
 static const lmp_rgb line_gray = { 0.75f, 0.75f, 0.78f };
 
-/* A panel: columns = numbers of bands, the first (0) the measurement. */
+/* The panels of the plot: a column per number of bands; the first (0) is the BRDF itself. */
 typedef struct panels {
     image *pixels;
     int columns, bands[COLUMNS_MAX];
@@ -22,7 +23,7 @@ typedef struct panels {
     const material *material;
 } panels;
 
-/* A soft dot of a pixel's size. */
+/* Draws an antialiased dot the size of a pixel. */
 static void dot(image *pixels, double x, double y, lmp_rgb color) {
     const int left = (int)floor(x - 0.5), top = (int)floor(y - 0.5);
     for (int j = top; j < top + 2; j++)
@@ -45,7 +46,8 @@ static void line(image *pixels, const double a[2], const double b[2], lmp_rgb co
     }
 }
 
-/* f_r cos theta_i in the plane of incidence; angle from the normal, positive on the mirror side. */
+/* Evaluates f_r cos theta_i in the plane of incidence; angle from the normal, positive on the
+ * mirror side. */
 static void value_at(const panels *p, int column, double theta, double angle, const float *rgb,
                      float value[3]) {
     const lmp_vec3 wi = { (float)-sin(angle), 0, (float)cos(angle) };
@@ -61,15 +63,15 @@ static void value_at(const panels *p, int column, double theta, double angle, co
     static float sh[LMP_SH_COUNT(LMP_BANDS_MAX)];
     lmp_sh_eval(info.bands, wi, sh);
     for (size_t c = 0; c < 3; c++) {
-        const float *row = rgb + c * info.count;
+        const float *plane = rgb + c * info.count;
         value[c] = 0;
         for (int l = 0; l < info.bands; l++)
             for (int m = info.mirrored ? 0 : -l; m <= l; m++)
-                value[c] += sh[LMP_SH_INDEX(l, m)] * *row++;
+                value[c] += sh[LMP_SH_INDEX(l, m)] * *plane++;
     }
 }
 
-/* Largest value of the BRDF itself, so that all columns of a row share one scale. */
+/* Returns the largest value of the BRDF itself, so that all columns of a row share one scale. */
 static double row_scale(const panels *p, double theta) {
     float largest = 1e-20f, v[3];
     for (int i = 0; i <= STEPS; i++) {
@@ -93,8 +95,9 @@ static void draw_panel(const panels *p, int column, int row, figure_box box) {
     line(p->pixels, foot, eye, line_gray);
     static float rgb[3 * LMP_BANDS_MAX * LMP_BANDS_MAX];
     if (column > 0)
-        lmp_brdf_table_view(p->tables[column], (float)cos(theta), 0, rgb);
-    /* lobes are drawn by the root of their value, or a highlight would hide all else */
+        lmp_brdf_table_interpolate(p->tables[column], (float)cos(theta), 0, rgb);
+    /* lobes are drawn by the root of their values, because a highlight would otherwise hide all
+     * else */
     double before[3][2] = { { 0 } };
     for (int i = 0; i <= STEPS; i++) {
         const double angle =
@@ -112,7 +115,7 @@ static void draw_panel(const panels *p, int column, int row, figure_box box) {
     }
 }
 
-/* What a column shows: the material by its name, as much of the end of it as has room, or bands. */
+/* Labels a column: with the end of the material's name that fits, or the number of bands. */
 static void name_column(const panels *p, int column, figure_box box) {
     char text[64];
     const int room = box.width / FIGURE_LETTER_WIDTH, length = (int)strlen(p->material->name);
@@ -123,7 +126,8 @@ static void name_column(const panels *p, int column, figure_box box) {
     figure_text(p->pixels, box, column > 0 ? box.height / 3 : FIGURE_LETTER_HEIGHT, ink, text);
 }
 
-/* The angle of a row's view, and the largest value, which all its lobes are scaled by. */
+/* Labels a row: with the angle of its view, and the largest value, by which all its lobes are
+ * scaled. */
 static void name_row(const panels *p, int row, figure_box box) {
     char text[64];
     snprintf(text, sizeof text, "%g deg, max %.3g", degrees[row],
@@ -149,10 +153,10 @@ static void draw_all(const panels *p) {
     }
 }
 
-bool brdf_plot(const brdf_options *o, const material *m, cli_error *error) {
+bool brdf_plot(const brdf_options *o, const material *m, base_error *error) {
     static const int usual[COLUMNS_MAX] = { 0, 5, 10, 20, 60 };
     if (!m->brdf)
-        return cli_fail(error, m->name, "is a table: plot the BRDF it was made from");
+        return base_fail(error, m->name, "is a table: plot the BRDF it was made from");
     image pixels = { 0 };
     panels p = { .pixels = &pixels, .columns = o->bands_given ? 2 : COLUMNS_MAX, .material = m };
     bool ok =

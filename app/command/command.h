@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* command.h - the subcommands: app/command/NAME.c defines command_NAME. */
-#ifndef LAMPION_COMMAND_H
-#define LAMPION_COMMAND_H
+#ifndef LAMPION_COMMAND_COMMAND_H
+#define LAMPION_COMMAND_COMMAND_H
 
-#include "app/cli/cli.h"
+#include "app/base/cli.h"
 
 /* All commands in the order of the help, NULL-terminated. */
 extern const cli_command *const command_table[];
 
-/* What the program is for. */
+/* One line about the purpose of the program. */
 extern const char command_program_summary[];
 
-/* The command of a name, or NULL; and the message that there is none, which names the nearest. */
+/* command_find returns the command of a name, or NULL; command_unknown reports that there is none,
+ * and suggests the nearest. */
 const cli_command *command_find(const char *name);
 int command_unknown(const char *name);
 

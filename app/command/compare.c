@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/compare/compare.h"
+#include "app/image/compare.h"
+#include "app/base/choice.h"
+#include "app/base/cli.h"
+#include "app/base/number.h"
 #include "app/command/command.h"
-#include "app/figure/figure.h"
+#include "app/image/figure.h"
 #include "app/image/image.h"
 
 #include <math.h>
@@ -27,7 +30,7 @@ static bool is_exr(const char *path) {
     return image_format_of(path) == IMAGE_EXR;
 }
 
-/* "rmse=0.01". Returns false after a message. */
+/* Parses a limit such as "rmse=0.01". Returns false after a message. */
 static bool parse_limit(const cli_command *command, const char *text, limit *wanted) {
     const size_t length = strcspn(text, "=");
     char name[16];
@@ -36,21 +39,21 @@ static bool parse_limit(const cli_command *command, const char *text, limit *wan
     while (m < COMPARE_COUNT && strcmp(name, compare_metrics[m]) != 0)
         m++;
     if (m < COMPARE_COUNT && text[length] == '=' &&
-        cli_number(text + length + 1, strlen(text + length + 1), &wanted->value)) {
+        number_read(text + length + 1, strlen(text + length + 1), &wanted->value)) {
         wanted->metric = (compare_metric)m;
         return true;
     }
-    cli_error error;
+    base_error error;
     if (m == COMPARE_COUNT)
-        cli_fail_word(&error, "--fail-above METRIC=VALUE", name, compare_metrics);
+        choice_fail(&error, "--fail-above METRIC=VALUE", name, compare_metrics);
     else
-        cli_fail(&error, "--fail-above METRIC=VALUE", "\"%s\" is not a number",
-                 text + length + (text[length] == '='));
+        base_fail(&error, "--fail-above METRIC=VALUE", "\"%s\" is not a number",
+                  text + length + (text[length] == '='));
     cli_usage(command, "%s", error.text);
     return false;
 }
 
-/* Whether the metric keeps to its limit; NaN never does. */
+/* Whether the metric is within its limit; NaN never is. */
 static bool within(const compare_result *result, const limit *wanted) {
     const double value = result->values[wanted->metric];
     return compare_grows_with_likeness(wanted->metric) ? value >= wanted->value
@@ -64,9 +67,9 @@ static void print_json_number(double value) {
         printf(isnan(value) ? "null" : value > 0 ? "\"infinite\"" : "\"-infinite\"");
 }
 
-/* What the heat map shows as white, and why. */
+/* The difference that the heat map shows as white, and its origin. */
 typedef struct heat_white {
-    double value, percentile; /* percentile: 0 where --heatmap-scale names the difference */
+    double value, percentile; /* percentile: 0 if --heatmap-scale gives the difference */
 } heat_white;
 
 static void print(const compare_arguments *arguments, const image *pixels,
@@ -103,10 +106,11 @@ static void print(const compare_arguments *arguments, const image *pixels,
 
 /* --- the heat map ----------------------------------------------------------------------------- */
 
-/* Under the map: the colors from 0 to the difference that is white, and numbers under them. */
+/* Sizes of the legend below the map: the colors from 0 to the white difference, with numbers below
+ * them. */
 enum { LEGEND = 28, RAMP_TOP = 6, RAMP_BOTTOM = 14, LEGEND_MARGIN = 4, ROOM_FOR_WORDS = 320 };
 
-/* The last says which percentile it is, where there is room. */
+/* Draws the numbers; the last tells the percentile if there is room. */
 static void draw_numbers(const heat_white *white, image *legend) {
     static const double parts[] = { 0, 0.5, 1 };
     const int ramp = legend->width - 2 * LEGEND_MARGIN;
@@ -123,7 +127,8 @@ static void draw_numbers(const heat_white *white, image *legend) {
     }
 }
 
-static bool draw_legend(const heat_white *white, int width, unsigned char *rgb8, cli_error *error) {
+static bool draw_legend(const heat_white *white, int width, unsigned char *rgb8,
+                        base_error *error) {
     image numbers;
     if (!image_create(&numbers, width, LEGEND, error))
         return false;
@@ -139,8 +144,8 @@ static bool draw_legend(const heat_white *white, int width, unsigned char *rgb8,
     return true;
 }
 
-/* A few pixels, such as the edge of a lamp, would leave all others black if the largest difference
- * were white: a percentile is, unless it is 0. */
+/* Chooses the white difference. A few pixels, such as the edge of a lamp, would leave all others
+ * black if the largest difference were white, so a percentile is, unless it is 0. */
 static bool choose_white(const compare_arguments *arguments, const image images[2],
                          heat_white *white) {
     *white = (heat_white) { (double)arguments->heat_scale, 0 };
@@ -156,13 +161,13 @@ static bool choose_white(const compare_arguments *arguments, const image images[
 }
 
 static bool write_heat_map(const compare_arguments *arguments, const image images[2],
-                           heat_white *white, cli_error *error) {
+                           heat_white *white, base_error *error) {
     const int width = images[0].width, height = images[0].height;
     const size_t row = 3 * (size_t)width;
     unsigned char *rgb8 = malloc(row * ((size_t)height + LEGEND));
     if (!rgb8 || !choose_white(arguments, images, white)) {
         free(rgb8);
-        return cli_fail(error, NULL, "out of memory");
+        return base_fail(error, NULL, "out of memory");
     }
     compare_heat_map(&images[0], &images[1], white->value, rgb8);
     const bool ok = draw_legend(white, width, rgb8 + row * (size_t)height, error) &&
@@ -173,17 +178,18 @@ static bool write_heat_map(const compare_arguments *arguments, const image image
 
 /* --- all of it -------------------------------------------------------------------------------- */
 
-/* What a display shows of both, exposed as suits the reference. */
-static bool judge_shown(image images[2], bool linear, compare_result *result, cli_error *error) {
+/* Compares both images as displayed, with the exposure that suits the reference. */
+static bool judge_shown(image images[2], bool linear, compare_result *result, base_error *error) {
     const image_display display = { .exposure = linear ? image_auto_exposure(&images[1]) : 1 };
     for (int i = 0; linear && i < 2; i++)
         image_show(&images[i], &display);
     return compare_shown(&images[0], &images[1], result, error);
 }
 
-/* Reads both, compares, prints; *status says whether the limits hold. */
+/* Reads both images, compares them and prints the metrics; *status tells whether the limits
+ * hold. */
 static bool compare(const compare_arguments *arguments, const limit *limits, image images[2],
-                    int *status, cli_error *error) {
+                    int *status, base_error *error) {
     compare_result result;
     heat_white white = { 0, 0 };
     const bool linear = is_exr(arguments->paths[1]);
@@ -201,13 +207,13 @@ static bool compare(const compare_arguments *arguments, const limit *limits, ima
         return false;
     print(arguments, &images[0], &result, &white);
     if (result.bad_values)
-        return cli_fail(error, NULL, "%zu values are not finite numbers, the first at pixel %d,%d",
-                        result.bad_values, result.max_x, result.max_y);
+        return base_fail(error, NULL, "%zu values are not finite numbers, the first at pixel %d,%d",
+                         result.bad_values, result.max_x, result.max_y);
     for (int i = 0; i < arguments->limits.count; i++)
         if (!within(&result, &limits[i])) {
             fprintf(stderr, "lampion: %s is %.6g, limit %g\n", compare_metrics[limits[i].metric],
                     result.values[limits[i].metric], limits[i].value);
-            *status = CLI_FAILURE;
+            *status = BASE_FAILURE;
         }
     return true;
 }
@@ -215,18 +221,18 @@ static bool compare(const compare_arguments *arguments, const limit *limits, ima
 static int execute(const cli_command *command, const compare_arguments *a) {
     limit limits[sizeof a->limits.items / sizeof *a->limits.items];
     image images[2] = { { .rgb = NULL }, { .rgb = NULL } };
-    int status = CLI_OK;
-    cli_error error;
+    int status = BASE_OK;
+    base_error error;
     for (int i = 0; i < a->limits.count; i++)
         if (!parse_limit(command, a->limits.items[i], &limits[i]))
-            return CLI_USAGE;
+            return BASE_USAGE;
     if (is_exr(a->paths[0]) != is_exr(a->paths[1]))
         return cli_usage(command, "one image is linear (.exr), the other tone-mapped: compare "
                                   "two of a kind");
     if (a->heat_map && image_format_of(a->heat_map) != IMAGE_PNG)
         return cli_usage(command, "%s: --heatmap makes a .png", a->heat_map);
     if (!compare(a, limits, images, &status, &error))
-        status = cli_report(&error);
+        status = base_report(&error);
     for (int i = 0; i < 2; i++)
         image_free(&images[i]);
     return status;
@@ -272,7 +278,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           .maximum = IMAGE_PIXELS_MAX },
         { .name = NULL },
     };
-    int count, status = CLI_OK;
+    int count, status = BASE_OK;
     char **operands;
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;

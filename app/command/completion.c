@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* completion.c - lampion completion: what completes the program's command lines in a shell. Here is
- * the frame; the part of each command comes from its option table (app/cli/complete.c). */
+/* completion.c - lampion completion: prints the completion of the program's command lines for a
+ * shell. The frame is here; the part of each command comes from its option table
+ * (app/base/cli_complete.c). */
+#include "app/base/cli.h"
 #include "app/command/command.h"
 #include "app/scene/scene.h"
 
@@ -22,11 +24,11 @@ static void print_scenes(void) {
 }
 
 static void print_materials(void) {
-    for (size_t i = 0; lmp_sgd_name(i); i++)
-        printf("%ssgd:%s", i ? " " : "", lmp_sgd_name(i));
+    for (size_t i = 0; lmp_brdf_sgd_name(i); i++)
+        printf("%ssgd:%s", i ? " " : "", lmp_brdf_sgd_name(i));
 }
 
-/* A line 'NAME<between>SUMMARY' for each command. */
+/* Prints a line 'NAME<between>SUMMARY' for each command. */
 static void print_summaries(const char *before, const char *between) {
     for (size_t i = 0; command_table[i]; i++) {
         printf("%s'%s%s", before, command_table[i]->name, between);
@@ -38,8 +40,8 @@ static void print_summaries(const char *before, const char *between) {
 
 /* --- shells ----------------------------------------------------------------------------------- */
 
-/* The words of the line are read anew, for bash takes : and = for ends of words. Materials are
- * those of the scenes that the line names so far. */
+/* Prints the start of bash's completion. It splits the line into words again, because bash splits
+ * at : and = as well. Materials are those of the scenes that the line names so far. */
 static void begin_bash(void) {
     printf("# bash completion of lampion, printed by `lampion completion bash`\n"
            "_lampion_overrides() { # BEGUN WORD…: NAME= of the materials that begin so\n"
@@ -227,7 +229,7 @@ static int run(const cli_command *command, int argc, char **argv) {
             command_print_help(command_table[k], shells[i].form);
         if (shells[i].end)
             shells[i].end();
-        return CLI_OK;
+        return BASE_OK;
     }
     return cli_usage_operand(command, operands[0]);
 }

@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* doctor.c - lampion doctor: what this machine offers, and where the program keeps things. */
+/* doctor.c - lampion doctor: reports what this machine offers, and where the program keeps
+ * files. */
+#include "app/base/cli.h"
+#include "app/base/file_cache.h"
+#include "app/base/file_json.h"
+#include "app/base/timing.h"
 #include "app/command/command.h"
-#include "app/file/file.h"
-#include "app/render/gl/gpu.h"
-#include "app/timing/timing.h"
-#include "app/trace/trace.h"
+#include "app/render/renderer/renderer.h"
+#include "app/scene/scene.h"
+#include "app/scene/trace/trace.h"
+#include "app/view/overlay.h"
+#include "app/view/window.h"
 
 #include <lampion/base.h>
 #include <lampion/cpu.h>
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-#include <assimp/version.h>
-#include <cjson/cJSON.h>
 #include <omp.h>
 #include <openexr.h>
-#include <pango/pango.h>
 #include <png.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -25,13 +26,13 @@
 
 enum { LIBRARIES = 7 };
 
-/* What there is, found once and then printed as text or as JSON. */
+/* What was found out, printed as text or as JSON. */
 typedef struct findings {
     char version[32], cpu[160], kernel[32];
-    char kernels[5][32]; /* the instruction sets there are */
+    char kernels[5][32]; /* the available instruction sets */
     int kernel_count, threads;
     bool opengl, software;
-    char device[1024], driver[256]; /* without OpenGL device says why */
+    char device[1024], driver[256]; /* without OpenGL, device says why */
     struct {
         const char *name;
         char version[48];
@@ -41,27 +42,27 @@ typedef struct findings {
     file_cache_usage usage;
 } findings;
 
-/* The instruction set in use, and those there are. */
+/* Finds the instruction set in use, and the available ones. */
 static void find_kernels(int mask, findings *f) {
     for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag <<= 1) {
         if (!(lmp_cpu_flags() & flag))
             continue;
-        lmp_cpu_mask(flag);
+        lmp_cpu_limit(flag);
         snprintf(f->kernels[f->kernel_count++], sizeof *f->kernels, "%s", lmp_cpu_name());
     }
-    lmp_cpu_mask((unsigned)mask);
+    lmp_cpu_limit((unsigned)mask);
     snprintf(f->kernel, sizeof f->kernel, "%s", lmp_cpu_name());
 }
 
-/* Without OpenGL the CPU draws images, and there is no viewer. */
+/* Finds OpenGL's device. Without OpenGL, the CPU draws images and there is no viewer. */
 static void find_opengl(const char *device, findings *f) {
-    gpu_context context;
-    cli_error error;
-    f->opengl = gpu_context_create(device, &context, &error);
-    f->software = f->opengl && context.software;
-    snprintf(f->device, sizeof f->device, "%s", f->opengl ? context.device : error.text);
-    snprintf(f->driver, sizeof f->driver, "%s", f->opengl ? context.driver : "");
-    gpu_context_destroy(&context);
+    render_device gpu;
+    base_error error;
+    f->opengl = render_device_open(DEVICE_GPU, device, NULL, &gpu, &error);
+    f->software = gpu.gl.software;
+    snprintf(f->device, sizeof f->device, "%s", f->opengl ? gpu.name : error.text);
+    snprintf(f->driver, sizeof f->driver, "%s", gpu.driver);
+    render_device_close(&gpu);
 }
 
 static void add_library(findings *f, int index, const char *name, const char *format, ...)
@@ -75,22 +76,30 @@ static void add_library(findings *f, int index, const char *name, const char *fo
     va_end(arguments);
 }
 
-/* As they are loaded, which need not be as they were compiled against. */
+typedef bool version_finder(char *text, size_t size, base_error *error);
+
+/* Adds a library that is opened only when it is needed. */
+static void add_late_library(findings *f, int index, const char *name, version_finder *find) {
+    base_error error;
+    f->libraries[index].name = name;
+    if (!find(f->libraries[index].version, sizeof f->libraries->version, &error))
+        add_library(f, index, name, "missing");
+}
+
+/* Finds the versions of the loaded libraries, which may differ from those compiled against. */
 static void find_libraries(findings *f) {
     int major, minor, patch;
     const char *extra;
     char embree[32];
-    add_library(f, 0, "Assimp", "%u.%u.%u", aiGetVersionMajor(), aiGetVersionMinor(),
-                aiGetVersionPatch());
+    add_late_library(f, 0, "Assimp", scene_assimp_version);
     trace_version(NULL, embree, sizeof embree);
     add_library(f, 1, "Embree", "%s", embree + strcspn(embree, "0123456789"));
     exr_get_library_version(&major, &minor, &patch, &extra);
     add_library(f, 2, "OpenEXR", "%d.%d.%d", major, minor, patch);
     add_library(f, 3, "libpng", "%s", png_get_libpng_ver(NULL));
-    add_library(f, 4, "cJSON", "%s", cJSON_Version());
-    glfwGetVersion(&major, &minor, &patch);
-    add_library(f, 5, "GLFW", "%d.%d.%d", major, minor, patch);
-    add_library(f, 6, "Pango", "%s", pango_version_string());
+    add_library(f, 4, "jansson", "%s", jansson_version_str());
+    add_late_library(f, 5, "GLFW", view_window_version);
+    add_late_library(f, 6, "Pango", view_overlay_version);
 }
 
 static void find_all(int mask, const char *device, findings *f) {
@@ -131,35 +140,34 @@ static void print_text(const findings *f) {
     printf(LABEL "none is read\n", "configuration");
 }
 
-static bool print_json(const findings *f, cli_error *error) {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "lampion", f->version);
-    cJSON_AddStringToObject(root, "cpu", f->cpu);
-    cJSON_AddNumberToObject(root, "threads", f->threads);
-    cJSON_AddStringToObject(root, "kernels", f->kernel);
-    cJSON *sets = cJSON_AddArrayToObject(root, "kernels_available");
+static json_t *opengl_to_json(const findings *f) {
+    if (!f->opengl)
+        return json_pack("{s:b, s:o}", "available", f->opengl, "reason",
+                         file_json_string(f->device));
+    return json_pack("{s:b, s:o, s:o, s:b}", "available", f->opengl, "device",
+                     file_json_string(f->device), "driver", file_json_string(f->driver), "software",
+                     f->software);
+}
+
+static json_t *cache_to_json(const findings *f) {
+    if (!f->cached)
+        return json_null();
+    return json_pack("{s:o, s:I, s:I, s:I}", "folder", file_json_string(f->cache), "files",
+                     (json_int_t)f->usage.files, "bytes", (json_int_t)f->usage.bytes, "limit",
+                     (json_int_t)f->usage.limit);
+}
+
+static bool print_json(const findings *f, base_error *error) {
+    json_t *sets = json_array(), *libraries = json_object();
     for (int i = 0; i < f->kernel_count; i++)
-        cJSON_AddItemToArray(sets, cJSON_CreateString(f->kernels[i]));
-    cJSON *opengl = cJSON_AddObjectToObject(root, "opengl");
-    cJSON_AddBoolToObject(opengl, "available", f->opengl);
-    if (f->opengl) {
-        cJSON_AddStringToObject(opengl, "device", f->device);
-        cJSON_AddStringToObject(opengl, "driver", f->driver);
-        cJSON_AddBoolToObject(opengl, "software", f->software);
-    } else {
-        cJSON_AddStringToObject(opengl, "reason", f->device);
-    }
-    cJSON *libraries = cJSON_AddObjectToObject(root, "libraries");
+        sets = file_json_append(sets, json_string(f->kernels[i]));
     for (int i = 0; i < LIBRARIES; i++)
-        cJSON_AddStringToObject(libraries, f->libraries[i].name, f->libraries[i].version);
-    cJSON *cache =
-        f->cached ? cJSON_AddObjectToObject(root, "cache") : cJSON_AddNullToObject(root, "cache");
-    if (f->cached) {
-        cJSON_AddStringToObject(cache, "folder", f->cache);
-        cJSON_AddNumberToObject(cache, "files", (double)f->usage.files);
-        cJSON_AddNumberToObject(cache, "bytes", (double)f->usage.bytes);
-        cJSON_AddNumberToObject(cache, "limit", (double)f->usage.limit);
-    }
+        libraries = file_json_with(libraries, f->libraries[i].name,
+                                   file_json_string(f->libraries[i].version));
+    json_t *root = json_pack("{s:s, s:o, s:i, s:s, s:o, s:o, s:o, s:o}", "lampion", f->version,
+                             "cpu", file_json_string(f->cpu), "threads", f->threads, "kernels",
+                             f->kernel, "kernels_available", sets, "opengl", opengl_to_json(f),
+                             "libraries", libraries, "cache", cache_to_json(f));
     return file_json_print(root, "doctor", error);
 }
 
@@ -184,7 +192,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int count, status;
     char **operands;
     findings f = { .kernel_count = 0 };
-    cli_error error;
+    base_error error;
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
     if (clear)
@@ -193,8 +201,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!json)
         print_text(&f);
     else if (!print_json(&f, &error))
-        return cli_report(&error);
-    return f.opengl || !device ? CLI_OK : CLI_FAILURE; /* one that was asked for is missed */
+        return base_report(&error);
+    return f.opengl || !device ? BASE_OK : BASE_FAILURE; /* a named device must exist */
 }
 
 const cli_command command_doctor = {

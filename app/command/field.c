@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion field - an irradiance volume of a scene's lights, as an engine keeps one. */
+/* lampion field - an irradiance volume of a scene's lights, in the form that engines use. */
+#include "app/base/cli.h"
 #include "app/command/command.h"
 #include "app/scene/world.h"
-#include "app/volume/volume.h"
+#include "app/study/volume.h"
 
 #include <lampion/light.h>
 
@@ -19,9 +20,9 @@ typedef struct field_options {
     scene_options load;
 } field_options;
 
-/* Nodes at the bounds of the scene, where no others are given. */
+/* Places the grid; without given limits its outer nodes are at the scene's bounds. */
 static bool place_grid(const field_options *o, const scene *world, volume_grid *grid,
-                       cli_error *error) {
+                       base_error *error) {
     memcpy(grid->minimum, world->minimum, sizeof grid->minimum);
     memcpy(grid->maximum, world->maximum, sizeof grid->maximum);
     if (o->minimum_given)
@@ -32,36 +33,42 @@ static bool place_grid(const field_options *o, const scene *world, volume_grid *
     for (int a = 0; a < 3; a++) {
         if (!(fabsf(grid->minimum[a]) <= LMP_LENGTH_MAX &&
               fabsf(grid->maximum[a]) <= LMP_LENGTH_MAX))
-            return cli_fail(error, NULL, "the grid is too far away (up to %g)",
-                            (double)LMP_LENGTH_MAX);
+            return base_fail(error, NULL, "the grid is too far away (up to %g)",
+                             (double)LMP_LENGTH_MAX);
         if (!(grid->minimum[a] <= grid->maximum[a]))
-            return cli_fail(error, NULL, "the grid ends before it begins: %c from %g to %g",
-                            "xyz"[a], scene_to_world(world->origin[a], grid->minimum[a]),
-                            scene_to_world(world->origin[a], grid->maximum[a]));
+            return base_fail(error, NULL, "the grid ends before it begins: %c from %g to %g",
+                             "xyz"[a], scene_to_world(world->origin[a], grid->minimum[a]),
+                             scene_to_world(world->origin[a], grid->maximum[a]));
         extended = extended || grid->minimum[a] < grid->maximum[a];
     }
     return extended ||
-           cli_fail(error, NULL, "the grid has no extent (see --minimum and --maximum)");
+           base_fail(error, NULL, "the grid has no extent (see --minimum and --maximum)");
 }
 
 static bool write_field(const field_options *o, const scene *world, const environment *around,
-                        const volume_settings *settings, cli_error *error) {
+                        const volume_settings *settings, base_error *error) {
     lmp_field *field;
     if (environment_shines(around))
-        return cli_fail(error, o->output.path,
-                        "a .lmpf holds no environment (give the scene lights, or take "
-                        "--environment none)");
+        return base_fail(error, o->output.path,
+                         "a .lmpf holds no environment (give the scene lights, or take "
+                         "--environment none)");
+    const scene_light *area = scene_find_area(world->lights, world->light_count);
+    if (area)
+        return base_fail(error, o->output.path,
+                         "a .lmpf holds no areas, and light %zu is a %s (probes in .json do)",
+                         (size_t)(area - world->lights),
+                         scene_light_kinds[area->emitter.kind].name);
     const bool ok = volume_make_field(world, settings, &field, error) &&
                     volume_write_field(field, o->output.path, error);
     if (ok && !scene_origin_is_0(world->origin))
-        cli_note(o->output.path, "is relative to %.17g,%.17g,%.17g, for a field has float32",
-                 world->origin[0], world->origin[1], world->origin[2]);
+        base_note(o->output.path, "is relative to %.17g,%.17g,%.17g, for a field has float32",
+                  world->origin[0], world->origin[1], world->origin[2]);
     lmp_field_destroy(field);
     return ok;
 }
 
 static bool write_volume(const field_options *o, const scene *world, const environment *around,
-                         const volume_settings *settings, cli_error *error) {
+                         const volume_settings *settings, base_error *error) {
     volume made;
     if (!volume_make(world, around, settings, &made, error))
         return false;
@@ -70,7 +77,7 @@ static bool write_volume(const field_options *o, const scene *world, const envir
     return ok;
 }
 
-static bool make(const field_options *o, const char *name, cli_error *error) {
+static bool make(const field_options *o, const char *name, base_error *error) {
     scene world;
     environment around = { .bands = 0 };
     volume_settings settings = o->settings;
@@ -93,7 +100,7 @@ static bool make(const field_options *o, const char *name, cli_error *error) {
     return ok;
 }
 
-/* What the table of options cannot say. */
+/* Checks what the table of options cannot express. */
 static int check_options(const cli_command *command, const field_options *o, int operand_count) {
     const int *counts = o->settings.grid.counts;
     if (operand_count != 1)
@@ -117,7 +124,7 @@ static int check_options(const cli_command *command, const field_options *o, int
     if (kind == VOLUME_CSV && o->output.layout == VOLUME_PLANAR)
         return cli_usage(command,
                          "a table has a line a probe: --layout planar takes .json or .npy");
-    return CLI_OK;
+    return BASE_OK;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -156,15 +163,15 @@ static int run(const cli_command *command, int argc, char **argv) {
         SCENE_LOAD_OPTION_ROWS(o.load),
         { .name = NULL },
     };
-    cli_error error;
+    base_error error;
     int operand_count, status;
     char **operands;
     if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
         return status;
     status = check_options(command, &o, operand_count);
-    if (status != CLI_OK)
+    if (status != BASE_OK)
         return status;
-    return make(&o, operands[0], &error) ? CLI_OK : cli_report(&error);
+    return make(&o, operands[0], &error) ? BASE_OK : base_report(&error);
 }
 
 const cli_command command_field = {

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* find.c - a command by its name. */
+/* find.c - finds a command by its name. */
+#include "app/base/choice.h"
+#include "app/base/cli.h"
 #include "app/command/command.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#define COMMANDS_MAX 32 /* that a message looks among for a name alike */
+#define COMMANDS_MAX 32 /* among which a message looks for a similar name */
 
 const cli_command *command_find(const char *name) {
     for (const cli_command *const *command = command_table; *command; command++)
@@ -18,15 +20,15 @@ int command_unknown(const char *name) {
     const char *names[COMMANDS_MAX + 2] = { "help" };
     for (size_t i = 0; i < COMMANDS_MAX && command_table[i]; i++)
         names[i + 1] = command_table[i]->name;
-    const char *const nearest = cli_nearest(name, names);
-    cli_error error;
+    const char *const nearest = choice_nearest(name, names);
+    base_error error;
     if (nearest)
-        cli_fail(&error, NULL, "unknown command %s (did you mean %s?); see lampion --help", name,
-                 nearest);
+        base_fail(&error, NULL, "unknown command %s (did you mean %s?); see lampion --help", name,
+                  nearest);
     else
-        cli_fail(&error, NULL, "unknown command %s; see lampion --help", name);
-    cli_report(&error);
-    return CLI_USAGE;
+        base_fail(&error, NULL, "unknown command %s; see lampion --help", name);
+    base_report(&error);
+    return BASE_USAGE;
 }
 
 int command_print_help(const cli_command *command, const char *word) {

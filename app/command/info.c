@@ -1,93 +1,82 @@
 /* SPDX-License-Identifier: MIT */
-/* info.c - lampion info: what is in a scene, or in a field (info_field.c). */
+/* info.c - lampion info: the contents of a scene, or of a field (info_field.c). */
 #include "app/command/info.h"
-#include "app/cli/printable.h"
-#include "app/file/file.h"
+#include "app/base/cli.h"
+#include "app/base/file_json.h"
+#include "app/base/printable.h"
 #include "app/scene/instance.h"
 #include "app/scene/world.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-static void add_materials(cJSON *root, const scene *s) {
-    cJSON *list = cJSON_AddArrayToObject(root, "materials");
-    for (size_t i = 0; i < s->material_count; i++) {
-        const scene_material *material = &s->materials[i];
-        cJSON *entry = cJSON_CreateObject();
-        cJSON_AddStringToObject(entry, "name", material->name);
-        file_json_add_floats(entry, "base_color", material->base_color, 4);
-        cJSON_AddNumberToObject(entry, "metallic", (double)material->metallic);
-        cJSON_AddNumberToObject(entry, "roughness", (double)material->roughness);
-        file_json_add_floats(entry, "emission", material->emission, 3);
-        cJSON_AddBoolToObject(entry, "double_sided", (material->flags & SCENE_DOUBLE_SIDED) != 0);
-        cJSON_AddBoolToObject(entry, "alpha_blend", (material->flags & SCENE_ALPHA_BLEND) != 0);
-        cJSON_AddBoolToObject(entry, "alpha_mask", (material->flags & SCENE_ALPHA_MASK) != 0);
-        cJSON_AddItemToArray(list, entry);
-    }
+static json_t *material_to_json(const scene_material *m) {
+    return json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:b, s:b, s:b}", "name", file_json_string(m->name), "base_color",
+        file_json_floats(m->base_color, 4), "metallic", file_json_float(m->metallic), "roughness",
+        file_json_float(m->roughness), "emission", file_json_floats(m->emission, 3), "double_sided",
+        (m->flags & SCENE_DOUBLE_SIDED) != 0, "alpha_blend", (m->flags & SCENE_ALPHA_BLEND) != 0,
+        "alpha_mask", (m->flags & SCENE_ALPHA_MASK) != 0);
 }
 
-static void add_lights(cJSON *root, const scene *s) {
-    cJSON *list = cJSON_AddArrayToObject(root, "lights");
-    for (size_t i = 0; i < s->light_count; i++)
-        cJSON_AddItemToArray(list, scene_light_to_json(&s->lights[i], s->origin));
+static json_t *mesh_to_json(const scene *s, const scene_mesh *mesh) {
+    return json_pack("{s:o, s:i, s:o}", "name", file_json_string(mesh->name), "triangles",
+                     (int)(mesh->index_count / 3), "material",
+                     file_json_string(s->materials[mesh->material].name));
 }
 
-static cJSON *describe(const scene *s) {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "scene", s->name);
-    cJSON_AddBoolToObject(root, "cached", s->cached);
-    cJSON_AddNumberToObject(root, "triangles", (double)scene_triangle_count(s));
-    cJSON_AddNumberToObject(root, "vertices", (double)s->vertex_count);
-    cJSON_AddNumberToObject(root, "instances", (double)s->instance_count);
-    scene_add_world(root, "minimum", s->origin, s->minimum);
-    scene_add_world(root, "maximum", s->origin, s->maximum);
-    cJSON_AddNumberToObject(root, "area", scene_area(s));
-    cJSON *meshes = cJSON_AddArrayToObject(root, "meshes");
-    for (size_t i = 0; i < s->mesh_count; i++) {
-        cJSON *entry = cJSON_CreateObject();
-        cJSON_AddStringToObject(entry, "name", s->meshes[i].name);
-        cJSON_AddNumberToObject(entry, "triangles", s->meshes[i].index_count / 3);
-        cJSON_AddStringToObject(entry, "material", s->materials[s->meshes[i].material].name);
-        cJSON_AddItemToArray(meshes, entry);
-    }
-    add_materials(root, s);
-    cJSON *variants = cJSON_AddArrayToObject(root, "variants");
+static json_t *texture_to_json(const scene_texture *texture) {
+    return json_pack("{s:o, s:i, s:i, s:b}", "name", file_json_string(texture->name), "width",
+                     (int)texture->width, "height", (int)texture->height, "srgb",
+                     texture->srgb != 0);
+}
+
+static json_t *camera_to_json(const scene *s, const scene_camera *camera) {
+    const bool parallel = camera->height > 0;
+    return json_pack("{s:o, s:o, s:o, s:o}", "name", file_json_string(camera->name), "eye",
+                     scene_world_to_json(s->origin, camera->eye), "target",
+                     scene_world_to_json(s->origin, camera->target), parallel ? "height" : "fov",
+                     file_json_float(parallel ? camera->height : camera->fov));
+}
+
+static json_t *unsupported_to_json(const scene_unsupported *unsupported) {
+    char text[2 * SCENE_NAME_SIZE + 32];
+    scene_unsupported_text(unsupported, text, sizeof text);
+    return file_json_string(text);
+}
+
+static json_t *describe(const scene *s) {
+    json_t *meshes = json_array(), *materials = json_array(), *variants = json_array(),
+           *textures = json_array(), *cameras = json_array(), *lights = json_array(),
+           *unsupported = json_array();
+    for (size_t i = 0; i < s->mesh_count; i++)
+        meshes = file_json_append(meshes, mesh_to_json(s, &s->meshes[i]));
+    for (size_t i = 0; i < s->material_count; i++)
+        materials = file_json_append(materials, material_to_json(&s->materials[i]));
     for (size_t i = 0; i < s->variant_count; i++)
-        cJSON_AddItemToArray(variants, cJSON_CreateString(s->variants[i].name));
-    cJSON *textures = cJSON_AddArrayToObject(root, "textures");
-    for (size_t i = 0; i < s->texture_count; i++) {
-        cJSON *entry = cJSON_CreateObject();
-        cJSON_AddStringToObject(entry, "name", s->textures[i].name);
-        cJSON_AddNumberToObject(entry, "width", s->textures[i].width);
-        cJSON_AddNumberToObject(entry, "height", s->textures[i].height);
-        cJSON_AddBoolToObject(entry, "srgb", s->textures[i].srgb != 0);
-        cJSON_AddItemToArray(textures, entry);
-    }
-    cJSON *cameras = cJSON_AddArrayToObject(root, "cameras");
-    for (size_t i = 0; i < s->camera_count; i++) {
-        cJSON *entry = cJSON_CreateObject();
-        cJSON_AddStringToObject(entry, "name", s->cameras[i].name);
-        scene_add_world(entry, "eye", s->origin, s->cameras[i].eye);
-        scene_add_world(entry, "target", s->origin, s->cameras[i].target);
-        const bool parallel = s->cameras[i].height > 0;
-        file_json_add_floats(entry, parallel ? "height" : "fov",
-                             parallel ? &s->cameras[i].height : &s->cameras[i].fov, 1);
-        cJSON_AddItemToArray(cameras, entry);
-    }
-    add_lights(root, s);
-    cJSON *left_out = cJSON_AddArrayToObject(root, "left_out");
-    for (size_t i = 0; i < s->left_out_count; i++) {
-        char text[2 * SCENE_NAME_SIZE + 32];
-        scene_left_out_text(&s->left_out[i], text, sizeof text);
-        cJSON_AddItemToArray(left_out, cJSON_CreateString(text));
-    }
-    return root;
+        variants = file_json_append(variants, file_json_string(s->variants[i].name));
+    for (size_t i = 0; i < s->texture_count; i++)
+        textures = file_json_append(textures, texture_to_json(&s->textures[i]));
+    for (size_t i = 0; i < s->camera_count; i++)
+        cameras = file_json_append(cameras, camera_to_json(s, &s->cameras[i]));
+    for (size_t i = 0; i < s->light_count; i++)
+        lights = file_json_append(lights, scene_light_to_json(&s->lights[i], s->origin));
+    for (size_t i = 0; i < s->unsupported_count; i++)
+        unsupported = file_json_append(unsupported, unsupported_to_json(&s->unsupported[i]));
+    return json_pack("{s:o, s:b, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
+                     "scene", file_json_string(s->name), "cached", s->cached, "triangles",
+                     (json_int_t)scene_triangle_count(s), "vertices", (json_int_t)s->vertex_count,
+                     "instances", (json_int_t)s->instance_count, "minimum",
+                     scene_world_to_json(s->origin, s->minimum), "maximum",
+                     scene_world_to_json(s->origin, s->maximum), "area",
+                     file_json_real(scene_area(s)), "meshes", meshes, "materials", materials,
+                     "variants", variants, "textures", textures, "cameras", cameras, "lights",
+                     lights, "left_out", unsupported);
 }
 
 static int print_json(const scene *s) {
-    cli_error error;
-    return file_json_print(describe(s), s->name, &error) ? CLI_OK : cli_report(&error);
+    base_error error;
+    return file_json_print(describe(s), s->name, &error) ? BASE_OK : base_report(&error);
 }
 
 static void print_names(const char *what, const char *name, size_t size, size_t count) {
@@ -98,24 +87,24 @@ static void print_names(const char *what, const char *name, size_t size, size_t 
     puts(count > SHOWN ? ", …" : "");
 }
 
-/* "30: 28 sphere, 2 spot" */
+/* Prints a summary such as "30: 28 sphere, 2 spot". */
 static void print_lights(const scene *s) {
-    size_t of_kind[LMP_LIGHT_KINDS] = { 0 }, hidden = 0;
+    size_t of_kind[SCENE_LIGHT_KIND_COUNT] = { 0 }, hidden = 0;
     for (size_t i = 0; i < s->light_count; i++) {
         of_kind[s->lights[i].emitter.kind]++;
         hidden += s->lights[i].hidden;
     }
     const char *separator = ": ";
     printf("%-10s %zu", "lights", s->light_count);
-    for (int kind = 0; kind < LMP_LIGHT_KINDS; kind++)
+    for (int kind = 0; kind < SCENE_LIGHT_KIND_COUNT; kind++)
         if (of_kind[kind]) {
             printf("%s%zu %s", separator, of_kind[kind], scene_light_kinds[kind].name);
             separator = ", ";
         }
-    printf(hidden ? " (%zu of them emissive meshes)\n" : "\n", hidden);
-    for (size_t i = 0; i < s->left_out_count; i++) {
+    printf(hidden ? " (%zu of them hidden: emissive meshes)\n" : "\n", hidden);
+    for (size_t i = 0; i < s->unsupported_count; i++) {
         char text[2 * SCENE_NAME_SIZE + 32];
-        scene_left_out_text(&s->left_out[i], text, sizeof text);
+        scene_unsupported_text(&s->unsupported[i], text, sizeof text);
         printf("%-10s %s\n", i ? "" : "left out", text);
     }
 }
@@ -129,7 +118,7 @@ static void print_corner(const scene *s, const float corner[3]) {
 }
 
 static void print_text(const scene *s) {
-    cli_print_name(s->name);
+    printable_print(s->name);
     puts(s->cached ? " (from the cache)" : "");
     printf("%-10s %zu\n", "triangles", scene_triangle_count(s));
     printf("%-10s %zu\n", "vertices", s->vertex_count);
@@ -154,18 +143,18 @@ static void print_materials(const scene *s) {
         puts(s->materials[i].name);
 }
 
-/* A line per light: as JSON, which a file of lights may hold. */
+/* Prints a line of JSON per light, in the form of a lights file. */
 static int print_each_light(const scene *s) {
     for (size_t i = 0; i < s->light_count; i++) {
-        cli_error error;
+        base_error error;
         char *text =
             file_json_text(scene_light_to_json(&s->lights[i], s->origin), false, s->name, &error);
         if (!text)
-            return cli_report(&error);
+            return base_report(&error);
         puts(text);
         free(text);
     }
-    return CLI_OK;
+    return BASE_OK;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -201,10 +190,10 @@ static int run(const cli_command *command, int argc, char **argv) {
                    ? cli_usage(command, "a field has no --%s", materials ? "materials" : "lights")
                    : info_print_field(operands[0], json);
     scene loaded;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     if (!scene_load(operands[0], &load, &loaded, &error))
-        return cli_report(&error);
-    status = CLI_OK;
+        return base_report(&error);
+    status = BASE_OK;
     if (json)
         status = print_json(&loaded);
     else if (materials)

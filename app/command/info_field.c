@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* info_field.c - lampion info of a .lmpf. */
-#include "app/cli/printable.h"
+/* info_field.c - lampion info for a .lmpf. */
+#include "app/base/file_json.h"
+#include "app/base/printable.h"
 #include "app/command/info.h"
-#include "app/file/file.h"
-#include "app/volume/volume.h"
+#include "app/study/volume.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -15,7 +14,7 @@ bool info_is_field(const char *path) {
     return volume_file_of(path) == VOLUME_LMPF;
 }
 
-/* The node opposite the first. */
+/* Finds the position of the node opposite the first. */
 static void find_last(const lmp_field_desc *desc, float last[3]) {
     const float first[3] = { desc->origin.x, desc->origin.y, desc->origin.z };
     const float cell[3] = { desc->cell.x, desc->cell.y, desc->cell.z };
@@ -28,7 +27,7 @@ static void print_text(const char *path, const volume_facts *facts) {
     const char *separator = ": ";
     float last[3];
     find_last(desc, last);
-    cli_print_name(path);
+    printable_print(path);
     putchar('\n');
     printf("%-10s %dx%dx%d nodes, cells of %.6g %.6g %.6g\n", "grid", desc->nodes[0],
            desc->nodes[1], desc->nodes[2], (double)desc->cell.x, (double)desc->cell.y,
@@ -40,50 +39,49 @@ static void print_text(const char *path, const volume_facts *facts) {
     printf("%-10s %.6g (%.6g cells), an error of %.3g\n", "reach", (double)facts->info.reach,
            (double)desc->reach, (double)desc->error);
     printf("%-10s %zu", "lights", facts->info.light_count);
-    for (int kind = 0; kind < LMP_LIGHT_KINDS; kind++)
+    for (int kind = 0; kind < SCENE_LIGHT_KIND_COUNT; kind++)
         if (facts->of_kind[kind]) {
             printf("%s%zu %s", separator, facts->of_kind[kind], scene_light_kinds[kind].name);
             separator = ", ";
         }
-    printf(" (room for %d)\n", desc->light_max);
+    printf(" (room for %zu)\n", desc->light_max);
     printf("%-10s %s, values and derivatives\n%-10s %s\n%-10s %zu\n", "layout", layout, "precision",
            precision, "bytes", facts->bytes);
+}
+
+static json_t *lights_to_json(const volume_facts *facts) {
+    json_t *lights = json_object();
+    for (int kind = 0; kind < SCENE_LIGHT_KIND_COUNT; kind++)
+        if (facts->of_kind[kind])
+            lights = file_json_with(lights, scene_light_kinds[kind].name,
+                                    json_integer((json_int_t)facts->of_kind[kind]));
+    return lights;
 }
 
 static int print_json(const char *path, const volume_facts *facts) {
     const lmp_field_desc *desc = &facts->info.desc;
     float last[3];
-    cli_error error;
-    cJSON *root = cJSON_CreateObject();
+    base_error error;
     find_last(desc, last);
-    cJSON_AddStringToObject(root, "field", path);
-    cJSON_AddItemToObject(root, "nodes", cJSON_CreateIntArray(desc->nodes, 3));
-    file_json_add_floats(root, "minimum", &desc->origin.x, 3);
-    file_json_add_floats(root, "maximum", last, 3);
-    file_json_add_floats(root, "cell", &desc->cell.x, 3);
-    cJSON_AddNumberToObject(root, "bands", desc->bands);
-    file_json_add_floats(root, "reach", &facts->info.reach, 1);
-    file_json_add_floats(root, "error", &desc->error, 1);
-    cJSON *lights = cJSON_AddObjectToObject(root, "lights");
-    for (int kind = 0; kind < LMP_LIGHT_KINDS; kind++)
-        if (facts->of_kind[kind])
-            cJSON_AddNumberToObject(lights, scene_light_kinds[kind].name,
-                                    (double)facts->of_kind[kind]);
-    cJSON_AddNumberToObject(root, "light_count", (double)facts->info.light_count);
-    cJSON_AddNumberToObject(root, "light_max", desc->light_max);
-    cJSON_AddStringToObject(root, "layout", layout);
-    cJSON_AddStringToObject(root, "precision", precision);
-    cJSON_AddNumberToObject(root, "bytes", (double)facts->bytes);
-    return file_json_print(root, path, &error) ? CLI_OK : cli_report(&error);
+    json_t *root =
+        json_pack("{s:o, s:[i, i, i], s:o, s:o, s:o, s:i, s:o, s:o, s:o, s:I, s:i, s:s, s:s, s:I}",
+                  "field", file_json_string(path), "nodes", desc->nodes[0], desc->nodes[1],
+                  desc->nodes[2], "minimum", file_json_floats(&desc->origin.x, 3), "maximum",
+                  file_json_floats(last, 3), "cell", file_json_floats(&desc->cell.x, 3), "bands",
+                  desc->bands, "reach", file_json_float(facts->info.reach), "error",
+                  file_json_float(desc->error), "lights", lights_to_json(facts), "light_count",
+                  (json_int_t)facts->info.light_count, "light_max", (json_int_t)desc->light_max,
+                  "layout", layout, "precision", precision, "bytes", (json_int_t)facts->bytes);
+    return file_json_print(root, path, &error) ? BASE_OK : base_report(&error);
 }
 
 int info_print_field(const char *path, bool json) {
     volume_facts facts;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     if (!volume_describe_field(path, &facts, &error))
-        return cli_report(&error);
+        return base_report(&error);
     if (json)
         return print_json(path, &facts);
     print_text(path, &facts);
-    return CLI_OK;
+    return BASE_OK;
 }

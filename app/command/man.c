@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* man.c - lampion man: the manual pages. */
+#include "app/base/cli.h"
 #include "app/command/command.h"
 
 static const char *const environment[][2] = {
@@ -24,7 +25,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         return cli_usage(command, "shows one page, not %d", count);
     if (count == 0) {
         cli_man(command_program_summary, command_table, environment);
-        return CLI_OK;
+        return BASE_OK;
     }
     const cli_command *const wanted = command_find(operands[0]);
     return wanted ? command_print_help(wanted, "--help=man") : command_unknown(operands[0]);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion merge - joins the parts of a reference that several machines have made. */
+/* lampion merge - joins the parts of a reference image that several machines have computed. */
+#include "app/base/cli.h"
 #include "app/command/command.h"
-#include "app/reference/part.h"
+#include "app/truth/reference_part.h"
 
 static int execute(const char *output, char *const *paths, int count, bool partial) {
     image radiance, standard_error;
-    cli_error error;
+    base_error error;
     bool ok = image_check_path(output, &error) &&
               reference_parts_join(paths, count, partial, &radiance, &standard_error, &error);
     if (ok) {
@@ -14,7 +15,7 @@ static int execute(const char *output, char *const *paths, int count, bool parti
         image_free(&radiance);
         image_free(&standard_error);
     }
-    return ok ? CLI_OK : cli_report(&error);
+    return ok ? BASE_OK : base_report(&error);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/paper/paper.h"
+#include "app/study/paper.h"
+#include "app/base/cli.h"
 #include "app/command/command.h"
 
 #include <errno.h>
@@ -9,11 +10,11 @@
 
 static int run_line(int argc, char **argv) {
     const cli_command *const command = argc > 0 ? command_find(argv[0]) : NULL;
-    return command ? command->run(command, argc, argv) : CLI_USAGE;
+    return command ? command->run(command, argc, argv) : BASE_USAGE;
 }
 
-/* The folders, as seen from anywhere: those given, else that of the environment. */
-static bool find_folders(cli_list *folders, cli_error *error) {
+/* Resolves the folders to absolute paths: those given, else that of the environment. */
+static bool find_folders(cli_list *folders, base_error *error) {
     const char *const usual = getenv("LAMPION_DATA");
     if (folders->count == 0 && usual && *usual)
         folders->items[folders->count++] = usual;
@@ -21,13 +22,14 @@ static bool find_folders(cli_list *folders, cli_error *error) {
         const char *const given = folders->items[i];
         folders->items[i] = realpath(given, NULL); /* kept until the program ends */
         if (!folders->items[i])
-            return cli_fail(error, given, "is no folder: %s", strerror(errno));
+            return base_fail(error, given, "is no folder: %s", strerror(errno));
     }
     return true;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
     paper_options settings = { .run = run_line };
+    char step_help[512];
     const cli_option options[] = {
         { "output", 'o', CLI_TEXT, &settings.directory, "DIR",
           "the folder to write index.html into", 0, 0, NULL, NULL },
@@ -39,15 +41,12 @@ static int run(const cli_command *command, int argc, char **argv) {
           "smaller images, for a reader who waits, instead of the paper's sizes", 0, 0, NULL,
           NULL },
         { "step", 0, CLI_LIST, &settings.steps, "NAME",
-          "only this step, of: basis lights cap integral operations table san-miguel sponza "
-          "materials cost preintegrated gradients fields shadows; "
-          "may be repeated",
-          0, 0, NULL, NULL },
+          paper_step_help(step_help, sizeof step_help), 0, 0, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
     };
     int count, status, failures;
     char **operands;
-    cli_error error;
+    base_error error;
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
     if (!settings.directory)
@@ -56,9 +55,9 @@ static int run(const cli_command *command, int argc, char **argv) {
         if (!paper_has_step(settings.steps.items[i], &error))
             return cli_usage(command, "%s", error.text);
     if (!find_folders(&settings.data, &error) || !paper_write(&settings, &failures, &error))
-        return cli_report(&error);
+        return base_report(&error);
     printf("%s/index.html\n", settings.directory);
-    return failures ? CLI_FAILURE : CLI_OK;
+    return failures ? BASE_FAILURE : BASE_OK;
 }
 
 const cli_command command_paper = {

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion project - spherical-harmonics coefficients of sphere lights, one or a table of them. */
+/* lampion project - spherical-harmonics coefficients of sphere lights, one light or a table of
+ * them. */
+#include "app/base/cli.h"
+#include "app/base/csv.h"
 #include "app/command/command.h"
-#include "app/csv/csv.h"
 
 #include <lampion/light.h>
 
@@ -24,13 +26,13 @@ typedef struct project_options {
     bool light_given, radius_given, point_given, format_given;
 } project_options;
 
-/* One row of the table: a light and the point that sees it. */
+/* A row of the table: a light, and the point from which it is seen. */
 typedef struct project_row {
     float center[3], radius, point[3];
-    float visibility; /* what part of the light comes */
+    float visibility; /* fraction of the light that arrives */
 } project_row;
 
-/* Rows go to the batch kernels some at a time, on every core. */
+/* Passes rows to the batch kernels in chunks, on every core. */
 static void project_rows(const project_row *rows, size_t count, int bands, float radiance,
                          float *coefficients) {
     enum { SOME = 256 };
@@ -46,7 +48,7 @@ static void project_rows(const project_row *rows, size_t count, int bands, float
         const lmp_vec3_array points = { &row->point[0], &row->point[1], &row->point[2],
                                         sizeof *row };
         float *sh = coefficients + first * stride;
-        lmp_sphere_project_n(bands, &spheres, points, some, LMP_SH_INTERLEAVED, 0, sh);
+        lmp_sphere_project_n(bands, &spheres, points, some, lmp_sh_interleaved(sh, 0));
         for (size_t k = 0; k < some * stride; k++)
             sh[k] *= radiance * row[k / stride].visibility;
     }
@@ -109,22 +111,22 @@ static int project_one(const project_options *o) {
         print_values(sh, LMP_SH_COUNT(o->bands));
         putchar('\n');
     }
-    return CLI_OK;
+    return BASE_OK;
 }
 
 /* --- a table of them, block by block --------------------------------------------------------- */
 
-/* Room for a block of rows on its way through: read, projected, printed. */
+/* Buffers for a block of rows while it is read, projected and printed. */
 typedef struct block {
     size_t room, coefficient_count;
     project_row *rows;
     float *coefficients;
-    char *text; /* room lines of line_size bytes */
+    char *text; /* `room` lines of line_size bytes */
     size_t line_size, *line_lengths;
 } block;
 
 static bool block_create(block *b, int bands) {
-    const size_t values = 1 << 19; /* of a block, for constant memory whatever the bands */
+    const size_t values = 1 << 19; /* per block, for constant memory whatever the bands */
     b->coefficient_count = LMP_SH_COUNT(bands);
     b->room = values / b->coefficient_count < 4096 ? values / b->coefficient_count : 4096;
     b->line_size = b->coefficient_count * (CSV_TEXT_MAX + 1);
@@ -142,8 +144,8 @@ static void block_free(block *b) {
     free(b->line_lengths);
 }
 
-/* Reads up to b->room rows; CSV_ROW while there may be more. */
-static csv_result block_read(block *b, csv_reader *reader, size_t *count, cli_error *error) {
+/* Reads up to b->room rows; returns CSV_ROW if there may be more. */
+static csv_result block_read(block *b, csv_reader *reader, size_t *count, base_error *error) {
     const int columns = COLUMNS - !reader->more;
     for (*count = 0; *count < b->room; (*count)++) {
         float v[COLUMNS] = { [COLUMNS - 1] = 1 };
@@ -174,7 +176,7 @@ static size_t format_line(const float *values, size_t count, char *line) {
     return (size_t)(out - line);
 }
 
-/* False when stdout takes no more; main reports it. */
+/* Prints a block; returns false if stdout accepts no more, which main reports. */
 static bool block_print(block *b, size_t count) {
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < count; i++)
@@ -187,7 +189,7 @@ static bool block_print(block *b, size_t count) {
 }
 
 static int project_table(const project_options *o, csv_reader *reader, block *b) {
-    cli_error error;
+    base_error error;
     csv_result result;
     print_header(b->coefficient_count);
     do {
@@ -195,21 +197,21 @@ static int project_table(const project_options *o, csv_reader *reader, block *b)
         result = block_read(b, reader, &count, &error);
         project_rows(b->rows, count, o->bands, o->radiance, b->coefficients);
         if (!block_print(b, count))
-            return CLI_FAILURE;
+            return BASE_FAILURE;
     } while (result == CSV_ROW);
-    return result == CSV_END ? CLI_OK : cli_report(&error);
+    return result == CSV_END ? BASE_OK : base_report(&error);
 }
 
 static int project_batch(const project_options *o) {
-    cli_error error;
+    base_error error;
     csv_reader *const reader = malloc(sizeof *reader);
     block b;
-    int status = CLI_FAILURE;
+    int status = BASE_FAILURE;
     if (!block_create(&b, o->bands) || !reader) {
-        cli_fail(&error, NULL, "out of memory");
-        cli_report(&error);
+        base_fail(&error, NULL, "out of memory");
+        base_report(&error);
     } else if (!csv_open(reader, o->batch, HEADER, &error)) {
-        cli_report(&error);
+        base_report(&error);
     } else {
         status = project_table(o, reader, &b);
         csv_close(reader);

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/reference/reference.h"
+#include "app/truth/reference.h"
+#include "app/base/cli.h"
+#include "app/base/number.h"
 #include "app/command/command.h"
-#include "app/environment/environment.h"
-#include "app/method/method.h"
-#include "app/override/override.h"
-#include "app/reference/part.h"
-#include "app/reference/quadrature.h"
-#include "app/render/shadow/shadow.h"
+#include "app/render/method.h"
+#include "app/render/renderer/override.h"
+#include "app/render/renderer/shadows.h"
+#include "app/scene/environment.h"
+#include "app/truth/reference_part.h"
+#include "app/truth/reference_quadrature.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { RAYS_OF_PNG = 8, RAYS_MAX = 256 }; /* as render has it */
+enum { RAYS_OF_PNG = 8, RAYS_MAX = 256 }; /* as in render */
 
 typedef struct reference_arguments {
     const char *output;
@@ -20,7 +22,7 @@ typedef struct reference_arguments {
     scene_camera_options camera;
     scene_lights_options lights;
     environment_options environment;
-    shadow_options shadow; /* on, or not */
+    shadow_options shadow; /* whether shadows are cast */
     cli_list materials;
     reference_settings settings;
     int bands, window;
@@ -30,16 +32,17 @@ typedef struct reference_arguments {
     int samples, rays; /* light samples and camera rays per pixel */
     bool rays_given, shard_given;
     char *const *words; /* of the command line */
-    /* One point instead of an image. */
+    /* A single point instead of an image. */
     bool point_given;
     float point[3], normal[3], view[3], diffuse[3], specular[3], exponent;
     cli_list point_lights;
     scene_options load;
 } reference_arguments;
 
-/* A linear image carries its standard error as a second layer, a part also what merge needs. */
+/* Writes the image. A linear image has its standard error as a second layer, and a part also has
+ * what merge needs. */
 static bool write_image(const reference_arguments *a, const scene *world, image *radiance,
-                        image *standard_error, cli_error *error) {
+                        image *standard_error, base_error *error) {
     const image_layer layers[] = { { NULL, radiance }, { "stderr", standard_error } };
     const size_t light_count = world->light_count;
     image_make_finite(radiance, a->output);
@@ -62,9 +65,10 @@ static bool write_image(const reference_arguments *a, const scene *world, image 
     return image_write(radiance, a->output, &display, error);
 }
 
-/* The materials as the oracle takes them: truncated ones as tables. The array is the caller's. */
+/* Chooses the materials in the reference's form, truncated ones as tables. The caller frees the
+ * array. */
 static bool choose_materials(reference_arguments *a, const scene *world, override_set *all,
-                             reference_material_source **sources, cli_error *error) {
+                             reference_material_source **sources, base_error *error) {
     const reference_band_limit *limit = &a->settings.band_limit;
     if (!override_open(&a->materials, world, all, error) ||
         (limit->bands && !override_bake(all, limit->bands, limit->window, error)))
@@ -73,7 +77,7 @@ static bool choose_materials(reference_arguments *a, const scene *world, overrid
         return true;
     a->settings.materials = *sources = calloc(world->material_count + 1, sizeof **sources);
     if (!*sources)
-        return cli_fail(error, NULL, "out of memory");
+        return base_fail(error, NULL, "out of memory");
     for (size_t i = 0; i < world->material_count; i++) {
         const int use = all->uses[i];
         if (use < 0)
@@ -90,7 +94,7 @@ static bool choose_materials(reference_arguments *a, const scene *world, overrid
     return true;
 }
 
-static bool render(reference_arguments *a, const char *name, cli_error *error) {
+static bool render(reference_arguments *a, const char *name, base_error *error) {
     scene world;
     environment around = { .bands = 0 };
     image radiance = { .rgb = NULL }, standard_error = { .rgb = NULL };
@@ -119,15 +123,15 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
     return ok;
 }
 
-/* "X,Y,Z,RADIUS,R,G,B" */
-static bool parse_light(const char *text, scene_light *light, cli_error *error) {
+/* Parses a light, "X,Y,Z,RADIUS,R,G,B". */
+static bool parse_light(const char *text, scene_light *light, base_error *error) {
     float values[7];
     const char *at = text;
     for (int i = 0; i < 7; i++) {
         const size_t length = strcspn(at, ",");
         double value;
-        if (at[length] != (i < 6 ? ',' : '\0') || !cli_number(at, length, &value))
-            return cli_fail(error, "--light", "\"%s\" is not X,Y,Z,RADIUS,R,G,B", text);
+        if (at[length] != (i < 6 ? ',' : '\0') || !number_read(at, length, &value))
+            return base_fail(error, "--light", "\"%s\" is not X,Y,Z,RADIUS,R,G,B", text);
         values[i] = (float)value;
         at += length + 1;
     }
@@ -138,10 +142,10 @@ static bool parse_light(const char *text, scene_light *light, cli_error *error) 
     };
     scene_light_error wrong;
     return scene_light_check(light, &wrong) ||
-           cli_fail(error, "--light", "\"%s\": %s", text, wrong.text + (wrong.text[0] == '.'));
+           base_fail(error, "--light", "\"%s\": %s", text, wrong.text + (wrong.text[0] == '.'));
 }
 
-static bool solve_point(const reference_arguments *a, cli_error *error) {
+static bool solve_point(const reference_arguments *a, base_error *error) {
     scene_light lights[sizeof a->point_lights.items / sizeof *a->point_lights.items];
     reference_material lobes = { .exponent = (double)a->exponent };
     reference_surface surface;
@@ -162,7 +166,7 @@ static bool solve_point(const reference_arguments *a, cli_error *error) {
     return true;
 }
 
-/* The light samples of a pixel are shared out among its camera rays. */
+/* Divides the light samples of a pixel among its camera rays. */
 static void share_samples(reference_arguments *a) {
     if (!a->rays_given)
         a->rays = a->output && image_format_of(a->output) == IMAGE_PNG ? RAYS_OF_PNG : 1;
@@ -171,7 +175,7 @@ static void share_samples(reference_arguments *a) {
 }
 
 static int execute(const cli_command *command, reference_arguments *a, int count, char **operands) {
-    cli_error error;
+    base_error error;
     share_samples(a);
     a->settings.error = (double)a->error;
     a->settings.band_limit =
@@ -179,7 +183,7 @@ static int execute(const cli_command *command, reference_arguments *a, int count
     if (a->point_given) {
         if (count != 0)
             return cli_usage(command, "--point takes no scene: give its lights with --light");
-        return solve_point(a, &error) ? CLI_OK : cli_report(&error);
+        return solve_point(a, &error) ? BASE_OK : base_report(&error);
     }
     if (count != 1)
         return cli_usage(command, "expected one scene");
@@ -193,8 +197,8 @@ static int execute(const cli_command *command, reference_arguments *a, int count
         return cli_usage(command, "--shard: part %d of %d has no sample of --spp %d",
                          a->settings.shard[0], a->settings.shard[1], a->settings.samples);
     return image_check_path(a->output, &error) && render(a, operands[0], &error)
-               ? CLI_OK
-               : cli_report(&error);
+               ? BASE_OK
+               : base_report(&error);
 }
 
 static const reference_arguments defaults = { .size = { 1280, 720 },

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/command/render.h"
-#include "app/bake/bake.h"
+#include "app/base/progress.h"
 #include "app/command/command.h"
-#include "app/file/file.h"
 #include "app/image/sequence.h"
+#include "app/scene/bake.h"
 #include "app/view/view.h"
 
 #include <math.h>
@@ -22,7 +22,8 @@ static void name_frame(const render_options *o, int index, char path[PATH_SIZE])
 
 /* --- one image -------------------------------------------------------------------------------- */
 
-static bool write_exr(const render_job *j, const char *path, cli_error *error) {
+/* Writes linear radiance, or what the format makes of it. */
+static bool write_radiance(const render_job *j, const char *path, base_error *error) {
     image pixels;
     if (!renderer_read_image(j->renderer, &pixels, error))
         return false;
@@ -32,18 +33,18 @@ static bool write_exr(const render_job *j, const char *path, cli_error *error) {
     return ok;
 }
 
-static bool write_png(const render_job *j, const char *path, cli_error *error) {
+static bool write_png(const render_job *j, const char *path, base_error *error) {
     const int width = j->frame.width, height = j->frame.height;
     unsigned char *rgb8 = malloc(3 * (size_t)width * (size_t)height);
     if (!rgb8)
-        return cli_fail(error, path, "out of memory");
+        return base_fail(error, path, "out of memory");
     const bool ok = renderer_read_rgb8(j->renderer, &j->display, rgb8, NULL, error) &&
                     image_write_png8(rgb8, width, height, path, error);
     free(rgb8);
     return ok;
 }
 
-/* The lights as they are at the time of a frame of a sequence. */
+/* Moves the lights to their positions at the time of a sequence's frame. */
 static void move_lights(render_job *j, int index) {
     if (!j->options->frames_given)
         return;
@@ -64,9 +65,10 @@ static float expose(void *job, const image *pixels) {
     return j->frame.samples_exposure;
 }
 
-/* The exposure of frame 0 serves all, whichever are rendered here: a sequence must not flicker. If
- * that is drawn, it tells on the way. The studio has an exposure of its own. */
-static bool settle_exposure(render_job *j, int first, cli_error *error) {
+/* Determines the exposure. That of frame 0 is used for all, whichever are rendered here, so that a
+ * sequence does not flicker; if frame 0 is drawn, it is found on the way. The studio has an
+ * exposure of its own. */
+static bool choose_exposure(render_job *j, int first, base_error *error) {
     const render_options *o = j->options;
     const float factor =
         o->exposure_given ? o->exposure : environment_exposure(&j->around, j->world.light_count);
@@ -74,7 +76,7 @@ static bool settle_exposure(render_job *j, int first, cli_error *error) {
     if (factor > 0)
         set_exposure(j, factor);
     else if (first == 0)
-        j->frame.meter = (render_meter) { expose, j };
+        renderer_set_meter(j->renderer, (render_meter) { expose, j });
     else {
         image pixels;
         move_lights(j, 0);
@@ -86,26 +88,27 @@ static bool settle_exposure(render_job *j, int first, cli_error *error) {
     return true;
 }
 
-static bool draw_frame(render_job *j, int index, cli_error *error) {
+static bool draw_frame(render_job *j, int index, base_error *error) {
     char path[PATH_SIZE];
     name_frame(j->options, index, path);
     move_lights(j, index);
     if (!renderer_draw(j->renderer, &j->frame, NULL, error))
         return false;
-    j->frame.meter.run = NULL;
-    return image_format_of(path) == IMAGE_EXR ? write_exr(j, path, error)
-                                              : write_png(j, path, error);
+    renderer_set_meter(j->renderer, (render_meter) { NULL, NULL });
+    return image_format_of(path) == IMAGE_PNG ? write_png(j, path, error)
+                                              : write_radiance(j, path, error);
 }
 
-/* The frames of a shard, first <= frame < end: runs that join without a gap, of equal length but
- * for one frame. */
+/* Finds the frames of a shard, first <= frame < end: consecutive runs whose lengths differ by at
+ * most one. */
 static void split_frames(const render_options *o, int *first, int *end) {
     const int64_t count = o->frames[1] - o->frames[0] + 1;
     *first = o->frames[0] + (int)(count * (o->shard[0] - 1) / o->shard[1]);
     *end = o->frames[0] + (int)(count * o->shard[0] / o->shard[1]);
 }
 
-/* Who wrote no number into FILE looks for the frames under another name. */
+/* Notes the names of the frames if FILE has no place for the number: users would look for another
+ * name. */
 static void tell_names(const render_options *o, int first, int end) {
     char names[2][PATH_SIZE];
     if (!o->frames_given || first == end || image_sequence_has_number(o->output))
@@ -113,32 +116,32 @@ static void tell_names(const render_options *o, int first, int end) {
     image_sequence_name(o->output, first, names[0], sizeof names[0]);
     image_sequence_name(o->output, end - 1, names[1], sizeof names[1]);
     const bool several = end - first > 1;
-    cli_note(NULL, "writing %s%s%s (%%04d in -o says where the number goes)", names[0],
-             several ? " … " : "", several ? names[1] : "");
+    base_note(NULL, "writing %s%s%s (%%04d in -o says where the number goes)", names[0],
+              several ? " … " : "", several ? names[1] : "");
 }
 
-static bool render_frames(render_job *j, cli_error *error) {
+static bool render_frames(render_job *j, base_error *error) {
     int first, end;
     split_frames(j->options, &first, &end);
     tell_names(j->options, first, end);
-    bool ok = settle_exposure(j, first, error);
+    bool ok = choose_exposure(j, first, error);
     for (int i = first; i < end && ok; i++) {
-        cli_progress("rendering", (double)(i - first) / (double)(end - first));
+        progress_show("rendering", (double)(i - first) / (double)(end - first));
         ok = draw_frame(j, i, error);
     }
-    cli_progress_end();
+    progress_end();
     return ok;
 }
 
 /* --- the command ------------------------------------------------------------------------------ */
 
-/* Whether the frame is drawn, or timed, by a method that reads such. */
+/* Whether the frame is drawn, or timed, by a method that reads such data. */
 static bool reads(const render_job *j, unsigned what) {
     return j->options->compare || method_table[j->method].reads & what;
 }
 
-/* Has ready what the method reads. */
-static bool settle_tables(render_job *j, cli_error *error) {
+/* Prepares the lobes and the field that the method reads. */
+static bool prepare_tables(render_job *j, base_error *error) {
     const render_options *o = j->options;
     if (reads(j, METHOD_READS_PREINTEGRATED) &&
         !bake_lobes(o->bands, (lmp_window)o->window, &j->lobes, error))
@@ -162,62 +165,69 @@ static bool is_layered(const scene *world) {
     return false;
 }
 
-/* Chooses what so many lights cost least by. A field sums all of them at a surface of a table or
- * under layers. */
-static void settle_method(render_job *j) {
+/* Chooses the method with the least cost for so many lights. A field is not considered for tables
+ * and layers, at which it sums all lights; it holds no areas. */
+static void choose_method(render_job *j) {
     const render_options *o = j->options;
     const bool by_lobes = o->materials.count == 0 && !is_layered(&j->world);
-    j->work = (method_work) { j->world.light_count, o->bands, (double)o->size[0] * o->size[1] };
-    j->method = o->method;
+    const size_t held =
+        j->world.light_count - scene_count_areas(j->world.lights, j->world.light_count);
+    j->work = (method_work) { held, o->bands, (double)o->size[0] * o->size[1] };
     if (o->method_choice == 0 && j->device.kind == DEVICE_CPU && by_lobes)
-        j->method = method_for_lights(o->method, &j->work);
+        j->method = method_for_lights(j->method, &j->work);
     j->frame.method = j->method;
 }
 
-/* The device for a method, as far as OpenGL is `software`. Methods are compared where all of them
- * run. */
+static bool has_areas(const render_job *j) {
+    return scene_find_area(j->world.lights, j->world.light_count);
+}
+
+/* Chooses the device for a method, assuming that OpenGL is `software`. Methods are compared on a
+ * device that runs all of them. */
 static device_kind choose_device(const render_job *j, bool software) {
     const render_options *o = j->options;
-    const bool tables = o->materials.count > 0 && environment_shines(&j->around);
-    return method_device(o->method, (device_kind)o->device_kind, tables, software && !o->compare,
-                         o->bands);
+    const method_needs needs = { .bands = o->bands,
+                                 .tables = o->materials.count > 0 && environment_shines(&j->around),
+                                 .areas = has_areas(j),
+                                 .software = software && !o->compare };
+    return method_device(j->method, (device_kind)o->device_kind, &needs);
 }
 
-static bool runs_on_cpu(const render_options *o) {
-    return o->bands <= method_table[o->method].bands_max[DEVICE_CPU];
+static bool runs_on_cpu(const render_job *j) {
+    return j->options->bands <= method_table[j->method].bands_max[DEVICE_CPU];
 }
 
-/* Opens it; without a GPU no OpenGL is loaded where the CPU draws the method. */
-static bool open_device(render_job *j, cli_error *error) {
+/* Opens the device. Without a GPU, no OpenGL is loaded if the CPU draws the method. */
+static bool open_device(render_job *j, base_error *error) {
     const render_options *o = j->options;
     device_kind kind = choose_device(j, !o->device && !render_finds_gpu());
     if (render_device_open(kind, o->device, &j->world, &j->device, error)) {
         if (kind == DEVICE_CPU || choose_device(j, j->device.gl.software) == kind)
             return true;
-    } else if (kind == DEVICE_CPU || o->device_kind != DEVICE_AUTO || o->device || !runs_on_cpu(o))
+    } else if (kind == DEVICE_CPU || o->device_kind != DEVICE_AUTO || o->device || !runs_on_cpu(j))
         return false;
     render_device_close(&j->device);
     return render_device_open(DEVICE_CPU, NULL, &j->world, &j->device, error);
 }
 
-/* Chooses where to draw. */
-static bool settle_device(render_job *j, cli_error *error) {
+/* Chooses the device, and then the method and its tables. */
+static bool prepare_device(render_job *j, base_error *error) {
     const render_options *o = j->options;
+    j->method = o->method;
     if (!open_device(j, error))
         return false;
-    if (o->bands > method_table[o->method].bands_max[j->device.kind])
-        return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
-                        o->bands, method_table[o->method].name);
-    settle_method(j);
-    return settle_tables(j, error);
+    if (o->bands > method_table[j->method].bands_max[j->device.kind])
+        return base_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
+                         o->bands, method_table[j->method].name);
+    choose_method(j);
+    return prepare_tables(j, error);
 }
 
-static bool cast_shadows(render_job *j, cli_error *error) {
+static bool cast_shadows(render_job *j, base_error *error) {
     if (!shadow_wanted(&j->options->shadow, &j->around, &j->world))
         return true;
-    j->shadow = shadow_create(&j->world, render_device_bvh(&j->device), &j->around,
-                              &j->options->shadow.settings, error);
-    j->frame.shadow = (render_pass) { shadow_frame, j->shadow };
+    j->shadow = render_device_shadow(&j->device, &j->around, &j->options->shadow.settings, error);
+    j->frame.shadow = shadow_pass(j->shadow);
     return j->shadow != NULL;
 }
 
@@ -225,7 +235,7 @@ static int default_samples(const render_options *o) {
     return image_format_of(o->output) == IMAGE_EXR ? 1 : 8;
 }
 
-static bool open_job(const char *name, render_job *j, cli_error *error) {
+static bool open_job(const char *name, render_job *j, base_error *error) {
     const render_options *o = j->options;
     char path[PATH_SIZE];
     name_frame(o, 0, path);
@@ -236,9 +246,9 @@ static bool open_job(const char *name, render_job *j, cli_error *error) {
         !environment_project(&j->around, o->bands, error) ||
         !animation_open(o->animate, &j->world, &j->path, error) ||
         !scene_place_camera(&j->world, &o->camera, o->size, &j->frame.camera, error) ||
-        !settle_device(j, error))
+        !prepare_device(j, error))
         return false;
-    /* Behind the scene's own lights, which paths name by their numbers. */
+    /* Suns come after the scene's own lights, because paths refer to these by their numbers. */
     j->world.light_count = environment_add_suns(&j->around, j->world.lights, j->world.light_count);
     j->renderer = renderer_create(&j->device, error);
     if (j->renderer)
@@ -254,7 +264,7 @@ static bool open_job(const char *name, render_job *j, cli_error *error) {
     j->frame.light_count = j->world.light_count;
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
     if (j->renderer && !j->moved)
-        return cli_fail(error, NULL, "out of memory");
+        return base_fail(error, NULL, "out of memory");
     return j->renderer && cast_shadows(j, error) &&
            override_prepare(&o->materials, &j->world, &j->frame, j->renderer, &j->materials, error);
 }
@@ -272,8 +282,8 @@ static void close_job(render_job *j) {
     animation_close(j->path);
 }
 
-/* Chooses the method, and refuses what the table of options cannot. */
-static int settle_options(const cli_command *command, render_options *o, int operand_count) {
+/* Chooses the method, and rejects what the table of options cannot. */
+static int resolve_options(const cli_command *command, render_options *o, int operand_count) {
     o->method = method_chosen(o->method_choice, o->bands);
     const method_row *method = &method_table[o->method];
     const int bands_max = method->bands_max[o->device_kind];
@@ -300,33 +310,33 @@ static int settle_options(const cli_command *command, render_options *o, int ope
     if (o->bands > bands_max)
         return cli_usage(command, "--bands %d: %s takes 1 to %d", o->bands, method->name,
                          bands_max);
-    return CLI_OK;
+    return BASE_OK;
 }
 
 static int render(const render_options *o, const char *name) {
-    cli_error error = { "" };
+    base_error error = { "" };
     render_job all = { .options = o };
     const bool ok = open_job(name, &all, &error) && render_frames(&all, &error) &&
                     (!(o->stats || o->compare) || render_print_stats(&all, &error));
     close_job(&all);
-    return ok ? CLI_OK : cli_report(&error);
+    return ok ? BASE_OK : base_report(&error);
 }
 
-/* A screenshot of the viewer once more, of the same scene or another. */
+/* Renders a screenshot of the viewer again, of the same scene or another. */
 static int repeat_shot(const render_options *o, const char *name) {
-    cli_error error = { "" };
+    base_error error = { "" };
     view_settings *settings = malloc(sizeof *settings);
     view_shot_options allowed = o->shot;
     allowed.scene = name;
-    bool ok = (settings || cli_fail(&error, NULL, "out of memory")) &&
+    bool ok = (settings || base_fail(&error, NULL, "out of memory")) &&
               view_read_shot(o->from, &allowed, settings, &error);
     if (ok && name && strlen(name) >= sizeof settings->scene)
-        ok = cli_fail(&error, name, "is too long a name");
+        ok = base_fail(&error, name, "is too long a name");
     if (ok && name)
         strcpy(settings->scene, name);
     ok = ok && view_render(settings, o->device, o->output, &error);
     free(settings);
-    return ok ? CLI_OK : cli_report(&error);
+    return ok ? BASE_OK : base_report(&error);
 }
 
 static const render_options defaults = { .size = { 1280, 720 },
@@ -394,8 +404,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     char **operands;
     if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
         return status;
-    status = settle_options(command, &o, operand_count);
-    if (status != CLI_OK)
+    status = resolve_options(command, &o, operand_count);
+    if (status != BASE_OK)
         return status;
     return o.from ? repeat_shot(&o, operand_count ? operands[0] : NULL) : render(&o, operands[0]);
 }

@@ -1,23 +1,22 @@
 /* SPDX-License-Identifier: MIT */
+#include "app/base/file_json.h"
+#include "app/base/timing.h"
 #include "app/command/render.h"
-#include "app/file/file.h"
 #include "app/scene/instance.h"
-#include "app/timing/timing.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 enum { SHADE = 2, PASSES = 6 };
 
-/* The median of each pass over the repetitions of one method, after a frame that warms it up. */
-static bool measure(render_job *j, method_kind method, double medians[PASSES], cli_error *error) {
+/* Measures the median of each pass over the repetitions of one method, after a frame to warm up. */
+static bool measure(render_job *j, method_kind method, double medians[PASSES], base_error *error) {
     static double samples[PASSES][RENDER_REPEAT_MAX];
     render_frame frame = j->frame;
     frame.method = method;
     frame.samples = 1;
     unsigned char *rgb8 = malloc(3 * (size_t)frame.width * (size_t)frame.height);
-    bool ok = rgb8 || cli_fail(error, NULL, "out of memory");
+    bool ok = rgb8 || base_fail(error, NULL, "out of memory");
     ok = ok && renderer_draw(j->renderer, &frame, NULL, error);
     for (int i = 0; i < j->options->repeat && ok; i++) {
         render_times times;
@@ -37,7 +36,8 @@ static bool measure(render_job *j, method_kind method, double medians[PASSES], c
     return ok;
 }
 
-/* Whether --stats times a method: its own, or with --compare-methods all that run as it does. */
+/* Whether --stats times a method: that of the image or, with --compare-methods, every one with
+ * enough bands on this device. */
 static bool compared(const render_job *j, method_kind method) {
     if (method == j->method)
         return true;
@@ -45,78 +45,75 @@ static bool compared(const render_job *j, method_kind method) {
            method_table[method].bands_max[j->device.kind] >= j->options->bands;
 }
 
-static bool add_timings(render_job *j, cJSON *stats, cli_error *error) {
+static json_t *passes_to_json(const double medians[PASSES]) {
     static const char *const names[PASSES] = { "gbuffer", "transfer", "shade",
                                                "shadow",  "tonemap",  "total" };
-    cJSON *timings = cJSON_AddObjectToObject(stats, "milliseconds");
+    json_t *passes = json_object();
+    for (int p = 0; p < PASSES; p++)
+        passes = file_json_with(passes, names[p], file_json_real(medians[p]));
+    return passes;
+}
+
+static bool add_timings(render_job *j, json_t **stats, base_error *error) {
+    json_t *timings = json_object();
     double medians[PASSES], shade[METHODS] = { 0 };
     for (int m = 0; m < METHODS; m++) {
         if (!compared(j, (method_kind)m))
             continue;
-        if (!measure(j, (method_kind)m, medians, error))
+        if (!measure(j, (method_kind)m, medians, error)) {
+            json_decref(timings);
             return false;
-        cJSON *passes = cJSON_AddObjectToObject(timings, method_table[m].name);
-        for (int p = 0; p < PASSES; p++)
-            cJSON_AddNumberToObject(passes, names[p], medians[p]);
+        }
+        timings = file_json_with(timings, method_table[m].name, passes_to_json(medians));
         shade[m] = medians[SHADE];
     }
+    *stats = file_json_with(*stats, "milliseconds", timings);
     for (int m = 0; m < METHODS; m++) {
         const method_row *row = &method_table[m];
         if (row->speedup && shade[m] > 0 && shade[row->compared] > 0)
-            cJSON_AddNumberToObject(stats, row->speedup, shade[row->compared] / shade[m]);
+            *stats = file_json_with(*stats, row->speedup,
+                                    file_json_real(shade[row->compared] / shade[m]));
     }
     return true;
 }
 
-/* By which auto chooses, where the CPU shades. */
-static void add_estimates(const render_job *j, cJSON *stats) {
-    cJSON *estimates = cJSON_AddObjectToObject(stats, "estimated_milliseconds");
+/* Writes the estimates by which auto chooses a method when the CPU shades. */
+static json_t *estimates_to_json(const render_job *j) {
+    json_t *estimates = json_object();
     for (int m = 0; m < METHODS; m++) {
         const double milliseconds = method_estimate((method_kind)m, &j->work);
         if (milliseconds > 0)
-            cJSON_AddNumberToObject(estimates, method_table[m].name, milliseconds);
+            estimates =
+                file_json_with(estimates, method_table[m].name, file_json_real(milliseconds));
     }
+    return estimates;
 }
 
-/* What is judged by it, where the program has chosen it. */
-static void add_exposure(const render_job *j, cJSON *stats) {
-    cJSON_AddNumberToObject(stats, "exposure", (double)j->display.exposure);
+/* Adds the exposure and, if it was determined automatically, the statistics that it is based on. */
+static json_t *with_exposure(json_t *stats, const render_job *j) {
+    stats = file_json_with(stats, "exposure", file_json_float(j->display.exposure));
     if (!(j->lit.average > 0))
-        return;
-    cJSON *lit = cJSON_AddObjectToObject(stats, "lit_surface");
-    cJSON_AddNumberToObject(lit, "part_of_image", (double)j->lit.part);
-    cJSON_AddNumberToObject(lit, "average_radiance", (double)j->lit.average);
-    cJSON_AddNumberToObject(lit, "brightest_twentieth", (double)j->lit.brightest);
+        return stats;
+    return file_json_with(stats, "lit_surface",
+                          json_pack("{s:o, s:o, s:o}", "part_of_image",
+                                    file_json_float(j->lit.part), "average_radiance",
+                                    file_json_float(j->lit.average), "brightest_twentieth",
+                                    file_json_float(j->lit.brightest)));
 }
 
-/* Of the last frame that was timed. */
-static void add_shadows(const render_job *j, cJSON *stats) {
+/* Writes the shadows' statistics of the last timed frame. */
+static json_t *shadows_to_json(const render_job *j) {
     const shadow_statistics s = shadow_describe(j->shadow);
-    cJSON *shadows = cJSON_AddObjectToObject(stats, "shadows");
-    cJSON_AddNumberToObject(shadows, "rays_a_pixel", s.rays_a_pixel);
-    cJSON_AddNumberToObject(shadows, "rays", (double)s.rays);
-    cJSON_AddNumberToObject(shadows, "rays_a_second", 1e3 * (double)s.rays / s.rays_milliseconds);
-    cJSON_AddNumberToObject(shadows, "rays_milliseconds", s.rays_milliseconds);
-    cJSON_AddNumberToObject(shadows, "filter_milliseconds", s.filter_milliseconds);
+    return json_pack("{s:o, s:I, s:o, s:o, s:o}", "rays_a_pixel", file_json_real(s.rays_a_pixel),
+                     "rays", (json_int_t)s.rays, "rays_a_second",
+                     file_json_real(1e3 * (double)s.rays / s.rays_milliseconds),
+                     "rays_milliseconds", file_json_real(s.rays_milliseconds),
+                     "filter_milliseconds", file_json_real(s.filter_milliseconds));
 }
 
-/* Of the last frame that was shaded by it. */
-static void add_field(const render_job *j, cJSON *stats) {
-    const shade_field_statistics s = shade_field_describe(j->field);
-    const double nodes[3] = { s.info.desc.nodes[0], s.info.desc.nodes[1], s.info.desc.nodes[2] };
-    cJSON *field = cJSON_AddObjectToObject(stats, "field");
-    cJSON_AddItemToObject(field, "nodes", cJSON_CreateDoubleArray(nodes, 3));
-    cJSON_AddNumberToObject(field, "error", (double)s.info.desc.error);
-    cJSON_AddNumberToObject(field, "reach", (double)s.info.reach);
-    cJSON_AddNumberToObject(field, "bytes", (double)s.info.bytes);
-    cJSON_AddNumberToObject(field, "update_milliseconds", s.update_milliseconds);
-    if (s.evaluate_milliseconds > 0) /* the library's alone */
-        cJSON_AddNumberToObject(field, "evaluate_milliseconds", s.evaluate_milliseconds);
-}
-
-/* The median of shading frames whose lights rest, while the camera moves on: the field keeps its
- * nodes, and computes those that come into view. */
-static bool add_rest(render_job *j, cJSON *stats, cli_error *error) {
+/* Measures the median shading time of frames with resting lights and a moving camera: the field
+ * keeps its nodes, and computes only those that come into view. */
+static bool time_rest(render_job *j, double *milliseconds, base_error *error) {
     static double samples[RENDER_REPEAT_MAX];
     render_frame frame = j->frame;
     const float step = 0.002f * (j->world.maximum[0] - j->world.minimum[0]);
@@ -130,46 +127,54 @@ static bool add_rest(render_job *j, cJSON *stats, cli_error *error) {
         samples[i] = ok ? times.shade : 0;
     }
     if (ok)
-        cJSON_AddNumberToObject(cJSON_GetObjectItemCaseSensitive(stats, "field"),
-                                "resting_milliseconds",
-                                timing_of(samples, j->options->repeat).median);
+        *milliseconds = timing_of(samples, j->options->repeat).median;
     return ok;
 }
 
-bool render_print_stats(render_job *j, cli_error *error) {
+static bool add_field(render_job *j, json_t **stats, base_error *error) {
+    /* from the last frame that the field shaded */
+    const shade_field_statistics s = shade_field_describe(j->field);
+    const int *nodes = s.info.desc.nodes;
+    double resting;
+    if (!time_rest(j, &resting, error))
+        return false;
+    json_t *field = json_pack("{s:[i, i, i], s:o, s:o, s:I, s:o}", "nodes", nodes[0], nodes[1],
+                              nodes[2], "error", file_json_float(s.info.desc.error), "reach",
+                              file_json_float(s.info.reach), "bytes", (json_int_t)s.info.bytes,
+                              "update_milliseconds", file_json_real(s.update_milliseconds));
+    if (s.evaluate_milliseconds > 0) /* only measured when the library shades */
+        field =
+            file_json_with(field, "evaluate_milliseconds", file_json_real(s.evaluate_milliseconds));
+    field = file_json_with(field, "resting_milliseconds", file_json_real(resting));
+    *stats = file_json_with(*stats, "field", field);
+    return true;
+}
+
+bool render_print_stats(render_job *j, base_error *error) {
     const render_options *o = j->options;
-    cJSON *stats = cJSON_CreateObject();
-    cJSON_AddStringToObject(stats, "scene", j->world.name);
-    cJSON_AddNumberToObject(stats, "triangles", (double)scene_triangle_count(&j->world));
-    cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
-    cJSON_AddNumberToObject(stats, "bands", o->bands);
-    cJSON_AddStringToObject(stats, "method", method_table[j->method].name);
-    cJSON_AddStringToObject(stats, "window", lmp_sh_window_name((lmp_window)o->window));
-    cJSON_AddNumberToObject(stats, "width", o->size[0]);
-    cJSON_AddNumberToObject(stats, "height", o->size[1]);
-    add_exposure(j, stats);
-    cJSON_AddStringToObject(stats, "device", j->device.name);
-    cJSON_AddStringToObject(stats, "driver", j->device.driver);
-    cJSON_AddStringToObject(stats, "clock", render_device_clock(&j->device));
-    cJSON_AddNumberToObject(stats, "repeat", o->repeat);
-    cJSON_AddStringToObject(stats, "shading", device_table[j->device.kind].name);
-    if (j->lobes)
-        cJSON_AddNumberToObject(stats, "preintegrated_bytes",
-                                (double)lmp_preintegrated_lobe_describe(j->lobes).bytes);
+    json_t *stats = json_pack(
+        "{s:o, s:I, s:I, s:i, s:s, s:s, s:i, s:i}", "scene", file_json_string(j->world.name),
+        "triangles", (json_int_t)scene_triangle_count(&j->world), "lights",
+        (json_int_t)j->world.light_count, "bands", o->bands, "method", method_table[j->method].name,
+        "window", lmp_sh_window_name((lmp_window)o->window), "width", o->size[0], "height",
+        o->size[1]);
+    stats = with_exposure(stats, j);
+    stats = file_json_with(stats, "device", file_json_string(j->device.name));
+    stats = file_json_with(stats, "driver", file_json_string(j->device.driver));
+    stats = file_json_with(stats, "clock", json_string(render_device_clock(&j->device)));
+    stats = file_json_with(stats, "repeat", json_integer(o->repeat));
+    stats = file_json_with(stats, "shading", json_string(device_table[j->device.kind].name));
+    if (j->lobes) {
+        const size_t bytes = lmp_preintegrated_lobe_describe(j->lobes).bytes;
+        stats = file_json_with(stats, "preintegrated_bytes", json_integer((json_int_t)bytes));
+    }
     if (j->device.kind == DEVICE_CPU)
-        add_estimates(j, stats);
-    if (!add_timings(j, stats, error)) {
-        cJSON_Delete(stats);
+        stats = file_json_with(stats, "estimated_milliseconds", estimates_to_json(j));
+    if (!add_timings(j, &stats, error) || (j->field && !add_field(j, &stats, error))) {
+        json_decref(stats);
         return false;
     }
-    if (j->field) {
-        add_field(j, stats);
-        if (!add_rest(j, stats, error)) {
-            cJSON_Delete(stats);
-            return false;
-        }
-    }
     if (j->shadow)
-        add_shadows(j, stats);
+        stats = file_json_with(stats, "shadows", shadows_to_json(j));
     return file_json_print(stats, NULL, error);
 }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion ruler - proven values of light on materials, and how far other values are from them. */
+/* lampion ruler - proven reference values of light on materials, and how far other values are from
+ * them. */
+#include "app/base/cli.h"
 #include "app/command/command.h"
-#include "app/ruler/column.h"
-#include "app/ruler/verdict.h"
+#include "app/truth/ruler_column.h"
+#include "app/truth/ruler_report.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,24 +48,24 @@ static void print_json(const ruler_table *table, bool truth) {
     printf("\n]\n");
 }
 
-static int check(const ruler_arguments *a, const ruler_table *table, cli_error *error) {
+static int check(const ruler_arguments *a, const ruler_table *table, base_error *error) {
     const ruler_limits limits = { (double)a->rms, (double)a->largest };
     double *values;
     if (!ruler_column_read(a->check, table, &values, error))
-        return cli_report(error);
-    const bool within = ruler_verdict(table, values, &limits);
+        return base_report(error);
+    const bool within = ruler_report(table, values, &limits);
     free(values);
-    return within ? CLI_OK : CLI_FAILURE;
+    return within ? BASE_OK : BASE_FAILURE;
 }
 
 static int execute(const ruler_arguments *a) {
     ruler_choice choice;
     ruler_table table;
-    cli_error error;
-    int status = CLI_OK;
+    base_error error;
+    int status = BASE_OK;
     if (!ruler_choose(&a->lights, &a->materials, &choice, &error) ||
         !ruler_table_open(&choice, &table, &error))
-        return cli_report(&error);
+        return base_report(&error);
     if (a->check)
         status = check(a, &table, &error);
     else if (a->format == FORMAT_JSON)

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion scoreboard - formulas for spherical lights, judged by the ruler and by the clock. */
+/* lampion scoreboard - formulas for spherical lights, compared in accuracy and in speed. */
+#include "app/base/cli.h"
 #include "app/command/command.h"
-#include "app/scoreboard/plates.h"
-#include "app/scoreboard/print.h"
+#include "app/truth/scoreboard_plates.h"
+#include "app/truth/scoreboard_print.h"
 
 #include <stdio.h>
 
 typedef struct scoreboard_arguments {
     cli_list formulas, materials;
     int format, plot_material;
-    const char *plot, *plates;
+    const char *cosines, *plot, *plates;
 } scoreboard_arguments;
 
 typedef void (*scoreboard_printer)(const board *b);
@@ -17,7 +18,7 @@ static const char *const format_names[] = { "text", "csv", "json", NULL };
 static const scoreboard_printer printers[] = { board_print_text, board_print_csv,
                                                board_print_json };
 
-static bool write_files(const scoreboard_arguments *a, const board *b, cli_error *error) {
+static bool write_files(const scoreboard_arguments *a, const board *b, base_error *error) {
     return (!a->plot || board_plot(b, (ruler_material)a->plot_material, a->plot, error)) &&
            (!a->plates || plates_write(b, a->plates, error));
 }
@@ -26,19 +27,24 @@ static int execute(const scoreboard_arguments *a) {
     const cli_list all = { .count = 0 };
     ruler_choice choice;
     ruler_table table;
+    cosines_table published = { .size = 0 };
     board b;
-    cli_error error;
+    base_error error;
     if (!ruler_choose(&all, &a->materials, &choice, &error) ||
-        !ruler_table_open(&choice, &table, &error))
-        return cli_report(&error);
-    bool done = board_create(&table, &a->formulas, &b, &error);
+        (a->cosines && !cosines_read(a->cosines, &published, &error)) ||
+        !ruler_table_open(&choice, &table, &error)) {
+        cosines_free(&published);
+        return base_report(&error);
+    }
+    bool done = board_create(&table, &a->formulas, a->cosines ? &published : NULL, &b, &error);
     if (done) {
         printers[a->format](&b);
         done = write_files(a, &b, &error);
         board_free(&b);
     }
     ruler_table_free(&table);
-    return done ? CLI_OK : cli_report(&error);
+    cosines_free(&published);
+    return done ? BASE_OK : base_report(&error);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -50,6 +56,12 @@ static int run(const cli_command *command, int argc, char **argv) {
           .argument = "NAME",
           .help = "only this one; may be repeated" },
         RULER_MATERIAL_OPTION_ROW(a.materials),
+        { .name = "cosines",
+          .kind = CLI_TEXT,
+          .target = &a.cosines,
+          .argument = "FILE.js",
+          .help = "judge `published` by this table of linearly transformed cosines, as its authors "
+                  "and three.js have it" },
         { .name = "format",
           .kind = CLI_CHOICE,
           .target = &a.format,

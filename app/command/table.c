@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "app/base/cli.h"
 #include "app/command/command.h"
 
 extern const cli_command command_basis;

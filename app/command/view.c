@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/view.h"
-#include "app/animation/animation.h"
+#include "app/base/cli.h"
 #include "app/command/command.h"
-#include "app/override/override.h"
-#include "app/render/shadow/shadow.h"
+#include "app/render/renderer/override.h"
+#include "app/render/renderer/shadows.h"
+#include "app/scene/animation.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +12,7 @@
 
 enum { FRAMES_MAX = 100000000 };
 
-/* What the command line says, beside what goes into the settings at once. */
+/* The options of the command line that do not go directly into the settings. */
 typedef struct view_arguments {
     int size[2], bands, method_choice, window;
     method_kind method;
@@ -20,28 +21,29 @@ typedef struct view_arguments {
     int tone;
     const char *from;
     cli_list materials;
-    shadow_options shadow;  /* on, or not */
-    view_shot_options shot; /* of `from` */
+    shadow_options shadow;  /* whether shadows are cast */
+    view_shot_options shot; /* for `from` */
 } view_arguments;
 
-/* NAME=MATERIAL into the settings; whether the scene has it is found out when it is drawn. */
-static bool add_materials(const cli_list *list, view_settings *settings, cli_error *error) {
+/* Adds NAME=MATERIAL to the settings; drawing finds out whether the scene has a material of that
+ * name. */
+static bool add_materials(const cli_list *list, view_settings *settings, base_error *error) {
     for (int i = 0; i < list->count; i++) {
         const char *text = list->items[i], *equals = strchr(text, '=');
         char name[SCENE_NAME_SIZE] = "";
         if (!equals)
-            return cli_fail(error, text, "--material is NAME=MATERIAL");
+            return base_fail(error, text, "--material is NAME=MATERIAL");
         if ((size_t)(equals - text) >= sizeof name)
-            return cli_fail(error, text, "no material has so long a name");
+            return base_fail(error, text, "no material has so long a name");
         memcpy(name, text, (size_t)(equals - text));
         if (!view_set_material(settings, name, equals + 1))
-            return cli_fail(error, text, "is too long a name, or one material too many");
+            return base_fail(error, text, "is too long a name, or one material too many");
     }
     return true;
 }
 
 static bool fill_options(const view_arguments *a, const char *name, view_options *o,
-                         cli_error *error) {
+                         base_error *error) {
     view_settings *s = &o->settings;
     if (a->from) {
         view_shot_options allowed = a->shot;
@@ -51,9 +53,11 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
             return false;
         o->keep_lights = true;
         o->load.up = s->up;
+        o->load.leaves = s->leaves;
         o->load.variant = view_variant(s);
     } else {
         s->up = o->load.up;
+        s->leaves = o->load.leaves;
         s->tone = a->tone;
         s->exposure = (a->exposure_given ? a->exposure : 1) * image_exposure_of_stops(a->stops);
         o->expose = !a->exposure_given;
@@ -68,18 +72,18 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
     }
     if (!a->from && o->load.variant) {
         if (strlen(o->load.variant) >= sizeof s->variant)
-            return cli_fail(error, o->load.variant, "no variant has so long a name");
+            return base_fail(error, o->load.variant, "no variant has so long a name");
         strcpy(s->variant, o->load.variant);
     }
     if (name) {
         if (strlen(name) >= sizeof s->scene)
-            return cli_fail(error, name, "is too long a name");
+            return base_fail(error, name, "is too long a name");
         strcpy(s->scene, name);
     }
     return add_materials(&a->materials, s, error);
 }
 
-/* What the table of options cannot say. */
+/* Checks what the table of options cannot express. */
 static int check_arguments(const cli_command *command, const view_arguments *a, int operand_count) {
     const int most = method_table[a->method].bands_max[DEVICE_AUTO];
     if (operand_count > 1 || (operand_count == 0 && !a->from))
@@ -87,12 +91,12 @@ static int check_arguments(const cli_command *command, const view_arguments *a, 
     if (a->bands > most)
         return cli_usage(command, "--bands %d: %s takes 1 to %d", a->bands,
                          method_table[a->method].name, most);
-    return CLI_OK;
+    return BASE_OK;
 }
 
 static int view(const view_arguments *a, const char *name, view_options *o) {
-    cli_error error = { "" };
-    return fill_options(a, name, o, &error) && view_run(o, &error) ? CLI_OK : cli_report(&error);
+    base_error error = { "" };
+    return fill_options(a, name, o, &error) && view_run(o, &error) ? BASE_OK : base_report(&error);
 }
 
 static const view_arguments defaults = { .size = { 1280, 720 },
@@ -104,9 +108,9 @@ static int run(const cli_command *command, int argc, char **argv) {
     view_arguments a = defaults;
     view_options *o = calloc(1, sizeof *o);
     if (!o) {
-        cli_error error;
-        cli_fail(&error, NULL, "out of memory");
-        return cli_report(&error);
+        base_error error;
+        base_fail(&error, NULL, "out of memory");
+        return base_report(&error);
     }
     o->fps = 24;
     o->settings.samples = 8;
@@ -154,7 +158,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (cli_parse(command, options, argc, argv, &operand_count, &operands, &status)) {
         a.method = method_chosen(a.method_choice, a.bands);
         status = check_arguments(command, &a, operand_count);
-        if (status == CLI_OK)
+        if (status == BASE_OK)
             status = view(&a, operand_count ? operands[0] : NULL, o);
     }
     free(o);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/image/exr.h"
-
-#include "app/file/file.h"
+#include "app/base/file_writer.h"
 
 #include <errno.h>
 #include <openexr.h>
@@ -10,7 +9,7 @@
 
 enum { CHANNELS_MAX = 3 * IMAGE_LAYERS_MAX };
 
-/* OpenEXR prints its errors by itself unless told where they go. */
+/* Swallows OpenEXR's errors, which it would otherwise print itself. */
 static void on_error(exr_const_context_t context, exr_result_t code, const char *message) {
     (void)context;
     (void)code;
@@ -29,7 +28,7 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *dat
     return (int64_t)size;
 }
 
-/* "R" or "name.R". */
+/* Writes the name of a channel, "R" or "name.R". */
 static void channel_name(const image_layer *layer, int channel, char *name, size_t size) {
     const bool named = layer->name && layer->name[0];
     snprintf(name, size, "%s%s%c", named ? layer->name : "", named ? "." : "", "RGB"[channel]);
@@ -50,7 +49,7 @@ static exr_result_t define_file(exr_context_t context, const image_layer *layers
     return r == EXR_ERR_SUCCESS ? exr_write_header(context) : r;
 }
 
-/* Where the encoder takes the rows of its channels from; the file has them sorted by name. */
+/* Sets where the encoder takes the rows of its channels from; the file has them sorted by name. */
 static void set_encoder(exr_encode_pipeline_t *encoder, const image_layer *layers, int count,
                         int row) {
     char name[256];
@@ -70,8 +69,8 @@ static void set_encoder(exr_encode_pipeline_t *encoder, const image_layer *layer
         }
 }
 
-/* Readers take a chunk of the size of its packed bytes for these, but OpenEXRCore 3.1 leaves
- * deflated bytes of just that size. */
+/* Stores a chunk uncompressed if compression does not shrink it: readers assume that a chunk of the
+ * unpacked size is not compressed, but OpenEXRCore 3.1 keeps deflated bytes of just that size. */
 static exr_result_t compress_or_store(exr_encode_pipeline_t *encoder) {
     exr_result_t (*const *const compress)(exr_encode_pipeline_t *) = encoder->encoding_user_data;
     const exr_result_t r = (*compress)(encoder);
@@ -110,7 +109,7 @@ static exr_result_t write_rows(exr_context_t context, const image_layer *layers,
 }
 
 bool image_write_exr_layers(const char *path, const image_layer *layers, int count,
-                            cli_error *error) {
+                            base_error *error) {
     file_writer writer;
     if (!file_write_begin(&writer, path, error))
         return false;

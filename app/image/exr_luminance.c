@@ -9,7 +9,7 @@ static double determinant(double m[3][3]) {
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* XYZ of a color of Y = 1. */
+/* Returns the XYZ of a color with Y = 1. */
 static void xyz_of(const float xy[2], double xyz[3]) {
     const double x = (double)xy[0], y = (double)xy[1];
     xyz[0] = x / y;
@@ -17,7 +17,7 @@ static void xyz_of(const float xy[2], double xyz[3]) {
     xyz[2] = (1 - x - y) / y;
 }
 
-/* White is the sum of the primaries, each times its fraction: by Cramer's rule. */
+/* Finds the weights of the primaries whose sum is white, by Cramer's rule. */
 void exr_luminance_weights(const float primaries[3][2], const float white[2], double weights[3]) {
     static const double rec709[3] = { 0.2126, 0.7152, 0.0722 };
     double m[3][3], w[3];
@@ -47,7 +47,7 @@ static int clamp(int i, int count) {
     return i < 0 ? 0 : i >= count ? count - 1 : i;
 }
 
-/* The value at `at` of a line of `count` samples, `stride` floats apart. */
+/* Interpolates the value at `at` in a line of `count` samples, `stride` floats apart. */
 static double at_position(const float *samples, int count, size_t stride, int step, int at) {
     const int below = at / step;
     if (at % step == 0)
@@ -59,7 +59,7 @@ static double at_position(const float *samples, int count, size_t stride, int st
     return sum;
 }
 
-/* Row y of the chroma at full height, at every `step`-th pixel. */
+/* Interpolates row y of the chroma at full height, at every `step`-th pixel. */
 static void fill_row(const exr_chroma *chroma, int width, int height, int y, float *row) {
     const int columns = (width + chroma->step - 1) / chroma->step;
     const int rows = (height + chroma->step - 1) / chroma->step;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* exr_read.c - OpenEXR images as linear RGB: of colors, of luminance, of luminance and chroma. */
+/* exr_read.c - OpenEXR images as linear RGB: from colors, from luminance, or from luminance and
+ * chroma. */
 #include "app/image/exr.h"
 #include "app/image/exr_luminance.h"
 
@@ -10,28 +11,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* OpenEXR prints its errors by itself unless told where they go. */
+/* Swallows OpenEXR's errors, which it would otherwise print itself. */
 static void on_error(exr_const_context_t context, exr_result_t code, const char *message) {
     (void)context;
     (void)code;
     (void)message;
 }
 
-/* Where the samples of a channel go. */
+/* The destination of a channel's samples. */
 typedef struct plane {
     char name[256];
     float *samples;
-    int stride;              /* floats from one to the next */
-    int width, height, step; /* in samples; one each `step` pixels along both axes */
+    int stride;              /* floats from one sample to the next */
+    int width, height, step; /* in samples, one each `step` pixels along both axes */
 } plane;
 
-/* What is read of a file: R, G and B, or Y, or Y, RY and BY. */
+/* The channels that are read: R, G and B, or Y, or Y, RY and BY. */
 typedef struct planes {
     plane items[3];
     int count;
 } planes;
 
-/* Aims the planes' channels of a chunk at them; others are skipped. */
+/* Directs a chunk's channels to their planes; others are skipped. */
 static exr_result_t set_decoder(exr_decode_pipeline_t *decoder, const planes *to, int64_t column,
                                 int64_t row) {
     int found = 0;
@@ -68,7 +69,7 @@ static float from_half(uint32_t bits) {
     return bits >> 15 ? -magnitude : magnitude;
 }
 
-/* One row of a channel, stored by the lower byte first. */
+/* Unpacks one row of a channel, which is stored in little-endian order. */
 static void unpack_row(const exr_coding_channel_info_t *channel, const uint8_t *from, float *to,
                        int stride) {
     for (int x = 0; x < channel->width; x++, from += channel->bytes_per_element, to += stride) {
@@ -82,7 +83,8 @@ static void unpack_row(const exr_coding_channel_info_t *channel, const uint8_t *
     }
 }
 
-/* For subsampled channels: OpenEXRCore 3.1 takes the way of others for some rows of them. */
+/* Unpacks subsampled channels, some of whose rows OpenEXRCore 3.1 would handle as if they were
+ * not. */
 static exr_result_t unpack_subsampled(exr_decode_pipeline_t *decoder) {
     const uint8_t *from = decoder->unpacked_buffer;
     uint64_t left = decoder->chunk.unpacked_size;
@@ -174,8 +176,8 @@ static void make_plane(plane *p, const char *layer, const char *channel, float *
     p->step = step;
 }
 
-/* R, G and B where the file has them or has no Y either; else Y as green, and chroma if it is
- * there, in memory of its own. */
+/* Chooses the channels to read: R, G and B if the file has them or has no Y either; else Y as
+ * green, and chroma if there is any, into memory of its own. */
 static exr_result_t choose_planes(exr_const_context_t context, const char *layer, image *pixels,
                                   planes *to, exr_chroma chroma[2]) {
     static const char *const colors[3] = { "R", "G", "B" }, *const differences[2] = { "RY", "BY" };
@@ -244,7 +246,7 @@ static exr_result_t read_pixels(exr_const_context_t context, const char *layer, 
 }
 
 static bool decode_part(exr_const_context_t context, const image_source *source, image *pixels,
-                        cli_error *error) {
+                        base_error *error) {
     const char *const path = source->path;
     exr_attr_box2i_t window;
     exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
@@ -252,10 +254,10 @@ static bool decode_part(exr_const_context_t context, const image_source *source,
     if (r == EXR_ERR_SUCCESS)
         r = exr_get_storage(context, 0, &storage);
     if (r != EXR_ERR_SUCCESS)
-        return cli_fail(error, path, "is damaged, or not an OpenEXR image (%s)",
-                        exr_get_default_error_message(r));
+        return base_fail(error, path, "is damaged, or not an OpenEXR image (%s)",
+                         exr_get_default_error_message(r));
     if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
-        return cli_fail(error, path, "deep OpenEXR images are not supported");
+        return base_fail(error, path, "deep OpenEXR images are not supported");
     if (!image_create_decoded(source, (long long)window.max.x - window.min.x + 1,
                               (long long)window.max.y - window.min.y + 1, pixels, error))
         return false;
@@ -264,10 +266,10 @@ static bool decode_part(exr_const_context_t context, const image_source *source,
         return true;
     image_free(pixels);
     if (r == EXR_ERR_MISSING_REQ_ATTR && source->layer)
-        return cli_fail(error, path, "has no layer \"%s\"", source->layer);
+        return base_fail(error, path, "has no layer \"%s\"", source->layer);
     if (r == EXR_ERR_MISSING_REQ_ATTR || r == EXR_ERR_FEATURE_NOT_IMPLEMENTED)
-        return cli_fail(error, path, "needs channels R, G and B, or Y, of half or float");
-    return cli_fail(error, path, "damaged OpenEXR: %s", exr_get_default_error_message(r));
+        return base_fail(error, path, "needs channels R, G and B, or Y, of half or float");
+    return base_fail(error, path, "damaged OpenEXR: %s", exr_get_default_error_message(r));
 }
 
 static int64_t size_of_source(exr_const_context_t context, void *user) {
@@ -287,7 +289,7 @@ static int64_t read_at(exr_const_context_t context, void *user, void *to, uint64
     return (int64_t)count;
 }
 
-bool image_decode_exr(const image_source *source, image *pixels, cli_error *error) {
+bool image_decode_exr(const image_source *source, image *pixels, base_error *error) {
     image_source bytes = *source;
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.user_data = &bytes;
@@ -297,8 +299,8 @@ bool image_decode_exr(const image_source *source, image *pixels, cli_error *erro
     exr_context_t context = NULL;
     const exr_result_t r = exr_start_read(&context, source->path, &setup);
     if (r != EXR_ERR_SUCCESS)
-        return cli_fail(error, source->path, "is damaged, or not an OpenEXR image (%s)",
-                        exr_get_default_error_message(r));
+        return base_fail(error, source->path, "is damaged, or not an OpenEXR image (%s)",
+                         exr_get_default_error_message(r));
     const bool ok = decode_part(context, source, pixels, error);
     exr_finish(&context);
     return ok;

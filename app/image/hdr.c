@@ -9,7 +9,7 @@
 
 enum { PACKED_WIDTH_MIN = 8, PACKED_WIDTH_MAX = 32767, SHIFT_MAX = 24 };
 
-/* What is left of a file. */
+/* The unread rest of a file. */
 typedef struct rest {
     const unsigned char *at;
     size_t size;
@@ -26,7 +26,7 @@ static const unsigned char *take(rest *file, size_t size) {
 
 /* --- the header ------------------------------------------------------------------------------- */
 
-/* A line without its end, of any length; LF and CRLF end it. */
+/* A line of any length without its end, LF or CRLF. */
 typedef struct line {
     const char *text;
     size_t length;
@@ -47,7 +47,7 @@ static bool take_line(rest *file, line *l) {
     return true;
 }
 
-/* Whether the line begins so; *value is then what follows, without blanks around it. */
+/* Whether the line begins with a name; *value is the text after it, without surrounding blanks. */
 static bool begins(const line *l, const char *name, line *value) {
     const size_t length = strlen(name);
     if (l->length < length || memcmp(l->text, name, length) != 0)
@@ -64,7 +64,7 @@ static bool is(const line *l, const char *text) {
     return l->length == strlen(text) && memcmp(l->text, text, l->length) == 0;
 }
 
-/* Reads `count` numbers between blanks, and no more. */
+/* Reads exactly `count` numbers separated by blanks. */
 static bool parse_numbers(const line *l, int count, double *numbers) {
     char text[128];
     snprintf(text, sizeof text, "%.*s", l->length < sizeof text ? (int)l->length : 0, l->text);
@@ -78,12 +78,12 @@ static bool parse_numbers(const line *l, int count, double *numbers) {
     return at[strspn(at, " \t")] == '\0';
 }
 
-/* What the header says. */
+/* The contents of the header. */
 typedef struct description {
     bool xyz;
-    double scale[3];     /* from what is stored to radiance */
-    long lines, columns; /* scanlines, and the pixels of each */
-    bool upright;        /* a scanline is a column of the image */
+    double scale[3];     /* factors from stored values to radiance */
+    long lines, columns; /* number of scanlines, and pixels per scanline */
+    bool upright;        /* whether a scanline is a column of the image */
     bool x_falls, y_rises;
 } description;
 
@@ -102,7 +102,8 @@ static bool scale_by(description *d, const line *l, int count) {
     return true;
 }
 
-/* "-Y 512 +X 1024": rows from the top, pixels from the left. The axis of the scanlines is first. */
+/* Parses the size, such as "-Y 512 +X 1024": rows from the top, pixels from the left. The axis of
+ * the scanlines comes first. */
 static bool parse_size(const line *l, description *d) {
     char text[64], sign[2], axis[2];
     int end = 0;
@@ -120,31 +121,33 @@ static bool parse_size(const line *l, description *d) {
     return true;
 }
 
-static bool read_header(rest *file, description *d, const char *path, cli_error *error) {
+static bool read_header(rest *file, description *d, const char *path, base_error *error) {
     line l, value;
     *d = (description) { .scale = { 1, 1, 1 } };
     if (!take_line(file, &l) || !begins(&l, "#?", &value))
-        return cli_fail(error, path, "no Radiance image (it does not begin with #?)");
+        return base_fail(error, path, "no Radiance image (it does not begin with #?)");
     while (take_line(file, &l) && l.length > 0) {
         if (begins(&l, "FORMAT=", &value)) {
             d->xyz = is(&value, "32-bit_rle_xyze");
             if (!d->xyz && !is(&value, "32-bit_rle_rgbe"))
-                return cli_fail(error, path,
-                                "of format \"%.*s\" (32-bit_rle_rgbe and 32-bit_rle_xyze are read)",
-                                (int)(value.length < 40 ? value.length : 40), value.text);
+                return base_fail(
+                    error, path,
+                    "of format \"%.*s\" (32-bit_rle_rgbe and 32-bit_rle_xyze are read)",
+                    (int)(value.length < 40 ? value.length : 40), value.text);
         }
         if (begins(&l, "EXPOSURE=", &value) && !scale_by(d, &value, 1))
-            return cli_fail(error, path, "has an exposure that makes no sense");
+            return base_fail(error, path, "has an invalid exposure");
         if (begins(&l, "COLORCORR=", &value) && !scale_by(d, &value, 3))
-            return cli_fail(error, path, "has a color correction that makes no sense");
+            return base_fail(error, path, "has an invalid color correction");
     }
     return (take_line(file, &l) && parse_size(&l, d)) ||
-           cli_fail(error, path, "has no size as \"-Y 512 +X 1024\" after its header");
+           base_fail(error, path, "has no size as \"-Y 512 +X 1024\" after its header");
 }
 
 /* --- rows ------------------------------------------------------------------------------------- */
 
-/* One channel of a packed row: runs of one byte (128 + n, byte) and of others (n, bytes). */
+/* Unpacks one channel of a row: runs of one byte (128 + n, byte) and of different bytes (n,
+ * bytes). */
 static bool unpack(rest *file, size_t width, unsigned char *to) {
     for (size_t x = 0; x < width;) {
         const unsigned char *head = take(file, 1);
@@ -161,7 +164,7 @@ static bool unpack(rest *file, size_t width, unsigned char *to) {
     return true;
 }
 
-/* Pixel by pixel; 1, 1, 1, n is the pixel before n times more, in digits of 256. */
+/* Reads pixel by pixel; 1, 1, 1, n repeats the pixel before n times, n in digits of 256. */
 static bool read_plain(rest *file, size_t width, unsigned char *row) {
     unsigned shift = 0;
     for (size_t x = 0; x < width;) {
@@ -198,8 +201,8 @@ static bool read_row(rest *file, size_t width, unsigned char *row) {
     return true;
 }
 
-/* CIE XYZ to linear RGB of Rec. 709's primaries and its white, D65, Y to Y: no scale changes.
- * Colors out of reach are those on the edge. */
+/* Converts CIE XYZ to linear RGB with Rec. 709's primaries and its white, D65, without a change of
+ * Y. Colors out of gamut are clipped to its boundary. */
 static void to_rec709(double color[3]) {
     static const double matrix[3][3] = { { 3.2409699419, -1.5373831776, -0.4986107603 },
                                          { -0.9692436363, 1.8759675015, 0.0415550574 },
@@ -209,7 +212,7 @@ static void to_rec709(double color[3]) {
         color[c] = fmax(0, matrix[c][0] * xyz[0] + matrix[c][1] * xyz[1] + matrix[c][2] * xyz[2]);
 }
 
-/* Pixels of a scanline to where they belong, `step` of them apart. */
+/* Decodes the pixels of a scanline to their positions, `step` apart. */
 static void decode_line(const unsigned char *packed, const description *d, float *rgb,
                         ptrdiff_t step) {
     for (long i = 0; i < d->columns; i++, packed += 4, rgb += 3 * step) {
@@ -224,7 +227,7 @@ static void decode_line(const unsigned char *packed, const description *d, float
     }
 }
 
-/* The pixel of the image that scanline `i` begins with; *step leads to its next. */
+/* Returns the image's pixel at which scanline `i` begins; *step leads to the next. */
 static float *first_of(const image *pixels, const description *d, long i, ptrdiff_t *step) {
     const ptrdiff_t width = pixels->width, height = pixels->height;
     const ptrdiff_t x = d->upright ? i : 0, y = d->upright ? 0 : i;
@@ -233,7 +236,7 @@ static float *first_of(const image *pixels, const description *d, long i, ptrdif
     return pixels->rgb + 3 * (row * width + column);
 }
 
-bool image_decode_hdr(const image_source *source, image *pixels, cli_error *error) {
+bool image_decode_hdr(const image_source *source, image *pixels, base_error *error) {
     rest file = { source->data, source->size };
     description d;
     if (!read_header(&file, &d, source->path, error) ||
@@ -242,12 +245,12 @@ bool image_decode_hdr(const image_source *source, image *pixels, cli_error *erro
         return false;
     const size_t count = (size_t)d.columns;
     unsigned char *packed = malloc(4 * count);
-    bool ok = packed || cli_fail(error, source->path, "out of memory");
+    bool ok = packed || base_fail(error, source->path, "out of memory");
     for (long i = 0; ok && i < d.lines; i++) {
         ptrdiff_t step;
         float *const rgb = first_of(pixels, &d, i, &step);
         ok = read_row(&file, count, packed) ||
-             cli_fail(error, source->path, "damaged Radiance image, row %ld", i);
+             base_fail(error, source->path, "damaged Radiance image, row %ld", i);
         if (ok)
             decode_line(packed, &d, rgb, step);
     }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/image/image.h"
-
-#include "app/file/file.h"
+#include "app/base/file_writer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,11 +15,11 @@ image_format image_format_of(const char *path) {
     return IMAGE_UNKNOWN;
 }
 
-static bool fail_format(const char *path, cli_error *error) {
-    return cli_fail(error, path, "unknown kind of image (name it .png or .exr)");
+static bool fail_format(const char *path, base_error *error) {
+    return base_fail(error, path, "unknown kind of image (name it .png or .exr)");
 }
 
-bool image_check_path(const char *path, cli_error *error) {
+bool image_check_path(const char *path, base_error *error) {
     file_writer writer;
     if (image_format_of(path) == IMAGE_UNKNOWN)
         return fail_format(path, error);
@@ -30,9 +29,9 @@ bool image_check_path(const char *path, cli_error *error) {
     return true;
 }
 
-/* display NULL: as it is. */
+/* Writes an image for the display or, with display NULL, as it is. */
 static bool write_by_extension(const image *pixels, const char *path, const image_display *display,
-                               cli_error *error) {
+                               base_error *error) {
     const image_format format = image_format_of(path);
     if (format == IMAGE_EXR)
         return image_write_exr_layers(path, &(image_layer) { NULL, pixels }, 1, error);
@@ -40,7 +39,7 @@ static bool write_by_extension(const image *pixels, const char *path, const imag
         return fail_format(path, error);
     unsigned char *rgb8 = malloc(3 * (size_t)pixels->width * (size_t)pixels->height);
     if (!rgb8)
-        return cli_fail(error, path, "out of memory");
+        return base_fail(error, path, "out of memory");
     if (display)
         image_tone_map(pixels, display, rgb8);
     else
@@ -51,10 +50,10 @@ static bool write_by_extension(const image *pixels, const char *path, const imag
 }
 
 bool image_write(const image *pixels, const char *path, const image_display *display,
-                 cli_error *error) {
+                 base_error *error) {
     return write_by_extension(pixels, path, display, error);
 }
 
-bool image_write_figure(const image *pixels, const char *path, cli_error *error) {
+bool image_write_figure(const image *pixels, const char *path, base_error *error) {
     return write_by_extension(pixels, path, NULL, error);
 }

@@ -3,25 +3,25 @@
 #ifndef LAMPION_IMAGE_PIXELS_H
 #define LAMPION_IMAGE_PIXELS_H
 
-#include "app/cli/cli.h"
+#include "app/base/error.h"
 
-/* Rows from the top, tightly packed, linear RGB. */
+/* An image: rows from the top, tightly packed, linear RGB. */
 typedef struct image {
     int width, height;
-    float *rgb; /* 3 * width * height, malloc'ed */
+    float *rgb; /* 3 * width * height, from malloc */
 } image;
 
-#define IMAGE_SIZE_MAX   16384     /* pixels a side */
-#define IMAGE_PIXELS_MAX (1 << 26) /* of an image */
+#define IMAGE_SIZE_MAX   16384     /* pixels per side */
+#define IMAGE_PIXELS_MAX (1 << 26) /* pixels of an image */
 
-bool image_create(image *image, int width, int height, cli_error *error);
+bool image_create(image *image, int width, int height, base_error *error);
 void image_free(image *image);
 
-/* Before it is written to `path`: what overflowed becomes the largest float, what is no number 0,
- * as a .png shows them, and a note says how many. */
+/* Prepares an image for writing to `path`: overflow becomes the largest float, and NaN 0, as a .png
+ * shows them; a note says how many there were. */
 void image_make_finite(image *image, const char *path);
 
-/* A foreign file in memory, to be decoded. */
+/* An untrusted file in memory, to be decoded. */
 typedef struct image_source {
     const char *path; /* named in errors */
     const unsigned char *data;
@@ -30,8 +30,8 @@ typedef struct image_source {
     const char *layer;    /* of an .exr: NAME of channels NAME.R …; NULL: R, G and B */
 } image_source;
 
-/* image_create for the size that a file claims. */
+/* Creates an image of the size that a file claims. */
 bool image_create_decoded(const image_source *source, long long width, long long height,
-                          image *image, cli_error *error);
+                          image *image, base_error *error);
 
 #endif

@@ -7,7 +7,7 @@
 #include <string.h>
 
 bool image_write_png8(const unsigned char *rgb8, int width, int height, const char *path,
-                      cli_error *error) {
+                      base_error *error) {
     return image_write_png8_text(rgb8, width, height, NULL, path, error);
 }
 
@@ -17,7 +17,7 @@ static float linearize(unsigned char byte) {
 }
 
 static bool decode_pixels(png_image *png, const image_source *source, image *pixels,
-                          cli_error *error) {
+                          base_error *error) {
     png->format = PNG_FORMAT_RGB;
     if (!image_create_decoded(source, png->width, png->height, pixels, error))
         return false;
@@ -27,9 +27,9 @@ static bool decode_pixels(png_image *png, const image_source *source, image *pix
     if (!rgb8 || !png_image_finish_read(png, &black, rgb8, 0, NULL)) {
         free(rgb8);
         image_free(pixels);
-        return rgb8 ? cli_fail(error, source->path, "is a damaged or truncated PNG (libpng: %s)",
-                               png->message)
-                    : cli_fail(error, source->path, "out of memory");
+        return rgb8 ? base_fail(error, source->path, "is a damaged or truncated PNG (libpng: %s)",
+                                png->message)
+                    : base_fail(error, source->path, "out of memory");
     }
     float linear[256];
     for (int i = 0; i < 256; i++)
@@ -40,12 +40,12 @@ static bool decode_pixels(png_image *png, const image_source *source, image *pix
     return true;
 }
 
-bool image_decode_png(const image_source *source, image *pixels, cli_error *error) {
+bool image_decode_png(const image_source *source, image *pixels, base_error *error) {
     png_image png = { .version = PNG_IMAGE_VERSION };
     bool ok = png_image_begin_read_from_memory(&png, source->data, source->size);
     if (!ok)
-        cli_fail(error, source->path, "is damaged, truncated or not a PNG (libpng: %s)",
-                 png.message);
+        base_fail(error, source->path, "is damaged, truncated or not a PNG (libpng: %s)",
+                  png.message);
     ok = ok && decode_pixels(&png, source, pixels, error);
     png_image_free(&png);
     return ok;

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* PNG with or without a text chunk, which libpng's simple functions do not know. */
+/* PNG with or without a text chunk, which libpng's simplified API does not support. */
+#include "app/base/file_writer.h"
 #include "app/image/png.h"
-
-#include "app/file/file.h"
 
 #include <errno.h>
 #include <png.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* libpng calls it instead of returning: the message is kept, and control goes to setjmp. */
+/* Handles an error of libpng, which must not return: stores the message and jumps to setjmp. */
 static void on_error(png_structp png, png_const_charp message) {
-    cli_error *error = png_get_error_ptr(png);
+    base_error *error = png_get_error_ptr(png);
     snprintf(error->text, sizeof error->text, "%s", message);
     png_longjmp(png, 1);
 }
@@ -21,13 +20,13 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
-/* A third of the time of zlib's own level 6, for 6 % more bytes of a rendered image. */
+/* Takes a third of the time of zlib's default level 6, for 6 % more bytes in a rendered image. */
 static const int compression = 4;
 
 /* --- writing ---------------------------------------------------------------------------------- */
 
 static void set_text(png_structp png, png_infop info, const image_text *text) {
-    /* libpng takes pointers to what it only reads */
+    /* libpng takes pointers to non-const texts, which it only reads */
     char *key = strdup(text->key), *value = strdup(text->text);
     png_text chunk = { .compression = PNG_ITXT_COMPRESSION_zTXt, .key = key, .text = value };
     if (key && value)
@@ -55,9 +54,9 @@ static bool write_stream(png_structp png, png_infop info, FILE *stream, const un
 }
 
 bool image_write_png8_text(const unsigned char *rgb8, int width, int height, const image_text *text,
-                           const char *path, cli_error *error) {
+                           const char *path, base_error *error) {
     file_writer writer;
-    cli_error complaint = { "out of memory" };
+    base_error complaint = { "out of memory" };
     if (!file_write_begin(&writer, path, error))
         return false;
     png_structp png =
@@ -80,7 +79,7 @@ static const char *find_text(png_structp png, png_infop info, const char *key) {
     return NULL;
 }
 
-/* What is left of a file in memory. */
+/* The unread rest of a file in memory. */
 typedef struct remainder {
     const unsigned char *data;
     size_t size;
@@ -95,7 +94,7 @@ static void take_bytes(png_structp png, png_bytep bytes, size_t count) {
     rest->size -= count;
 }
 
-/* The chunks before the pixels alone. */
+/* Reads the chunks before the pixels. */
 static bool decode_chunks(png_structp png, png_infop info, remainder *rest) {
     if (setjmp(png_jmpbuf(png)))
         return false;
@@ -107,8 +106,8 @@ static bool decode_chunks(png_structp png, png_infop info, remainder *rest) {
 }
 
 bool image_decode_png_text(const image_source *source, const char *key, char **text,
-                           cli_error *error) {
-    cli_error complaint = { "out of memory" };
+                           base_error *error) {
+    base_error complaint = { "out of memory" };
     remainder rest = { source->data, source->size };
     *text = NULL;
     png_structp png =
@@ -119,10 +118,10 @@ bool image_decode_png_text(const image_source *source, const char *key, char **t
     if (found)
         *text = strdup(found);
     else if (ok)
-        cli_fail(error, source->path,
-                 "holds no settings of Lampion (a screenshot of lampion view does)");
+        base_fail(error, source->path,
+                  "holds no settings of Lampion (a screenshot of lampion view does)");
     else
-        cli_fail(error, source->path, "is damaged, truncated or not a PNG (%s)", complaint.text);
+        base_fail(error, source->path, "is damaged, truncated or not a PNG (%s)", complaint.text);
     png_destroy_read_struct(&png, &info, NULL);
-    return found && (*text || cli_fail(error, source->path, "out of memory"));
+    return found && (*text || base_fail(error, source->path, "out of memory"));
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Foreign images: the bytes are read here, decoded in the sandbox, and checked when they come back.
- */
+/* Untrusted images: the bytes are read here, decoded in the sandbox, and checked when they come
+ * back. */
 #include "app/image/image.h"
 
-#include "app/file/file.h"
-#include "app/sandbox/sandbox.h"
+#include "app/base/file.h"
+#include "app/base/sandbox.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -15,15 +15,15 @@
 
 #define FILE_SIZE_MAX ((size_t)2 << 30)
 
-typedef bool image_decoder(const image_source *source, image *image, cli_error *error);
+typedef bool image_decoder(const image_source *source, image *image, base_error *error);
 
 typedef struct decoding {
     image_source source;
     image_decoder *decoder;
-    const char *key; /* of the text that is wanted; NULL: the pixels are */
+    const char *key; /* of the requested text; NULL: the pixels are requested */
 } decoding;
 
-/* What comes back: this, and then the rows of the image. */
+/* The header of the child's output, which the rows of the image follow. */
 typedef struct decoded_size {
     int32_t width, height;
 } decoded_size;
@@ -41,7 +41,7 @@ static bool write_all(int output, const void *data, size_t size) {
     return true;
 }
 
-static bool decode_pixels(void *context, int output, cli_error *error) {
+static bool decode_pixels(void *context, int output, base_error *error) {
     const decoding *const d = context;
     image pixels;
     if (!d->decoder(&d->source, &pixels, error))
@@ -49,26 +49,26 @@ static bool decode_pixels(void *context, int output, cli_error *error) {
     const decoded_size size = { pixels.width, pixels.height };
     const size_t bytes = 3 * sizeof(float) * (size_t)pixels.width * (size_t)pixels.height;
     return (write_all(output, &size, sizeof size) && write_all(output, pixels.rgb, bytes)) ||
-           cli_fail(error, d->source.path, "does not fit into memory");
+           base_fail(error, d->source.path, "does not fit into memory");
 }
 
-static bool decode_text(void *context, int output, cli_error *error) {
+static bool decode_text(void *context, int output, base_error *error) {
     const decoding *const d = context;
     char *text;
     return image_decode_png_text(&d->source, d->key, &text, error) &&
            (write_all(output, text, strlen(text)) ||
-            cli_fail(error, d->source.path, "does not fit into memory"));
+            base_fail(error, d->source.path, "does not fit into memory"));
 }
 
 /* --- in the parent ---------------------------------------------------------------------------- */
 
-static bool decode(decoding *d, const char *path, void **block, size_t *size, cli_error *error) {
+static bool decode(decoding *d, const char *path, void **block, size_t *size, base_error *error) {
     void *data;
     if (!file_read(path, FILE_SIZE_MAX, &data, &d->source.size, error))
         return false;
     d->source.path = path;
     d->source.data = data;
-    /* a small file of a flat color may be a large image, and honest */
+    /* a small file of a uniform color may legitimately be a large image */
     const sandbox_job job = { .subject = path,
                               .input_bytes = d->source.size + (uint64_t)d->source.pixels_max / 2,
                               .context = d,
@@ -79,7 +79,7 @@ static bool decode(decoding *d, const char *path, void **block, size_t *size, cl
 }
 
 static bool take_image(const decoding *d, const void *block, size_t size, image *pixels,
-                       cli_error *error) {
+                       base_error *error) {
     decoded_size claimed = { 0, 0 };
     if (size >= sizeof claimed)
         memcpy(&claimed, block, sizeof claimed);
@@ -91,10 +91,10 @@ static bool take_image(const decoding *d, const void *block, size_t size, image 
         return true;
     }
     image_free(pixels);
-    return cli_fail(error, d->source.path, "cannot be read (is it damaged?)");
+    return base_fail(error, d->source.path, "cannot be read (is it damaged?)");
 }
 
-/* By the extension of path, whatever its case; NULL: of none that is known. */
+/* Returns the decoder for the extension of path, ignoring case; NULL if it is unknown. */
 static image_decoder *decoder_of(const char *path) {
     static const struct {
         const char *extension;
@@ -109,7 +109,7 @@ static image_decoder *decoder_of(const char *path) {
     return NULL;
 }
 
-static bool read_pixels(decoding *d, const char *path, image *pixels, cli_error *error) {
+static bool read_pixels(decoding *d, const char *path, image *pixels, base_error *error) {
     void *block;
     size_t size;
     memset(pixels, 0, sizeof *pixels);
@@ -120,20 +120,20 @@ static bool read_pixels(decoding *d, const char *path, image *pixels, cli_error 
     return ok;
 }
 
-bool image_read(const char *path, long long pixels_max, image *pixels, cli_error *error) {
+bool image_read(const char *path, long long pixels_max, image *pixels, base_error *error) {
     decoding d = { .source.pixels_max = pixels_max, .decoder = decoder_of(path) };
     if (!d.decoder)
-        return cli_fail(error, path, "unknown kind of image (.png, .exr and .hdr are read)");
+        return base_fail(error, path, "unknown kind of image (.png, .exr and .hdr are read)");
     return read_pixels(&d, path, pixels, error);
 }
 
-bool image_read_layer(const char *path, const char *layer, image *pixels, cli_error *error) {
+bool image_read_layer(const char *path, const char *layer, image *pixels, base_error *error) {
     decoding d = { .source = { .pixels_max = IMAGE_READ_PIXELS, .layer = layer },
                    .decoder = image_decode_exr };
     return read_pixels(&d, path, pixels, error);
 }
 
-bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error) {
+bool image_read_png_text(const char *path, const char *key, char **text, base_error *error) {
     decoding d = { .key = key };
     void *block;
     size_t size;
@@ -142,6 +142,6 @@ bool image_read_png_text(const char *path, const char *key, char **text, cli_err
     const bool fits = size <= IMAGE_TEXT_MAX;
     *text = fits ? strndup(block, size) : NULL;
     munmap(block, size);
-    return *text || (!fits && cli_fail(error, path, "holds more text than a scene of ours has")) ||
-           cli_fail(error, path, "out of memory");
+    return *text || (!fits && base_fail(error, path, "holds more text than a scene of ours has")) ||
+           base_fail(error, path, "out of memory");
 }

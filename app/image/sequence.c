@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The first %d or %0Nd in the pattern, and what follows it; NULL if there is none. */
+/* Finds the first %d or %0Nd in the pattern; *rest is the text after it. Returns NULL if there is
+ * none. */
 static const char *find_number(const char *pattern, int *digits, const char **rest) {
     for (const char *at = strchr(pattern, '%'); at; at = strchr(at + 1, '%')) {
         const char *end = at + 1 + strspn(at + 1, "0123456789");

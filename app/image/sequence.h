@@ -6,10 +6,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether the pattern says where the number goes. */
+/* Whether the pattern has a place for the number. */
 bool image_sequence_has_number(const char *pattern);
 
-/* The file of image `index`: the number takes the place of %d or %0Nd in the pattern, or goes
+/* Names the file of image `index`: the number replaces %d or %0Nd in the pattern, or is inserted
  * before its extension with four digits. */
 void image_sequence_name(const char *pattern, int index, char *path, size_t size);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* texels_jpeg.c - JPEG by libjpeg-turbo: baseline, progressive and arithmetic; gray, YCbCr, RGB,
- * CMYK and YCCK. Of a damaged or truncated file what can be decoded is, as browsers do. */
+ * CMYK and YCCK. A damaged or truncated file is decoded as far as possible, as in browsers. */
 #include "app/image/texels.h"
 
 #include <setjmp.h>
@@ -9,11 +9,11 @@
 
 #include <jpeglib.h>
 
-/* Of a progressive image; more would take time without end for few bytes. */
+/* The most scans of a progressive image: more would take unlimited time for few bytes. */
 #define SCANS_MAX 500
 
 typedef struct reading {
-    struct jpeg_decompress_struct jpeg; /* first, so that a pointer to it is one to all */
+    struct jpeg_decompress_struct jpeg; /* first, so that a pointer to it points to the whole */
     struct jpeg_error_mgr errors;
     struct jpeg_progress_mgr progress;
     jmp_buf failed;
@@ -40,7 +40,7 @@ static void count_scans(j_common_ptr jpeg) {
     longjmp(((reading *)jpeg)->failed, 1);
 }
 
-/* What jpeg_destroy_decompress undoes, whatever happens after it. */
+/* Initializes what jpeg_destroy_decompress can clean up at any later time. */
 static void begin(reading *r, texels_reason *reason) {
     memset(r, 0, sizeof *r);
     r->reason = reason;
@@ -75,13 +75,13 @@ static bool measure(const unsigned char *data, size_t size, int *width, int *hei
     return ok;
 }
 
-/* a b / 255, rounded */
+/* Returns a b / 255, rounded. */
 static unsigned char product(unsigned a, unsigned b) {
     const unsigned t = a * b + 128;
     return (unsigned char)((t + (t >> 8)) >> 8);
 }
 
-/* Four inks to RGBA in place. Adobe's files hold what is left white, 255: no ink. */
+/* Converts four inks to RGBA in place. Adobe's files store inverted values: 255 means no ink. */
 static void mix_inks(unsigned char *row, size_t width, bool adobe) {
     const unsigned flip = adobe ? 0 : 255;
     for (size_t x = 0; x < width; x++, row += 4) {

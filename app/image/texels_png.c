@@ -53,7 +53,7 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
-/* Whatever is stored becomes 8-bit RGBA; of 16 bits the upper 8 count. */
+/* Requests 8-bit RGBA whatever is stored; of 16 bits the upper 8 are used. */
 static void ask_for_rgba(png_structp png) {
     png_set_expand(png);
     png_set_strip_16(png);
@@ -63,7 +63,7 @@ static void ask_for_rgba(png_structp png) {
 
 static void read_image(png_structp png, png_infop info, const reading *r) {
     const size_t row = 4 * (size_t)r->width;
-    /* no color spaces, texts or thumbnails */
+    /* ignore color spaces, texts and thumbnails */
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     png_read_info(png, info);
     ask_for_rgba(png);

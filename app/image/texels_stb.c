@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* texels_stb.c - what has no library of its own, by stb_image: TGA and BMP. */
+/* texels_stb.c - formats without a library of their own, by stb_image: TGA and BMP. */
 #include "app/image/texels.h"
 
 #include <limits.h>
@@ -11,7 +11,8 @@ static bool begins_bmp(const unsigned char *data, size_t size) {
     return size >= 2 && memcmp(data, "BM", 2) == 0;
 }
 
-/* TGA begins without a mark: an identifier's length, a color map or none, a kind of image. */
+/* Whether a file looks like TGA, which has no signature: an identifier's length, whether there is a
+ * color map, and a known type of image. */
 static bool begins_tga(const unsigned char *data, size_t size) {
     const unsigned kind = size >= 18 ? data[2] : 0;
     const bool mapped = kind == 1 || kind == 9, plain = (kind & 7) == 2 || (kind & 7) == 3;

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/image/tone.h"
 
-#include "app/cli/cli.h"
+#include "app/base/choice.h"
 #include "app/image/srgb.h"
-#include "shaders/tone.h"
+#include "shaders/program/tone.h"
 
 #include <math.h>
 #include <stdio.h>
 
 /* --- exposure --------------------------------------------------------------------------------- */
 
-/* Luminance in eighths of a stop, from 2^-40 to 2^40. */
+/* The histogram's bins: luminance in eighths of a stop, from 2^-40 to 2^40. */
 enum { BINS_A_STOP = 8, STOPS = 40, BINS = 2 * STOPS * BINS_A_STOP };
 
-/* The bin of x > 0, by its exponent and eighths of an octave: arithmetic whose bits are the same
- * everywhere, unlike a logarithm's. */
+/* Returns the bin of x > 0, by its exponent and eighths of an octave: arithmetic whose bits are the
+ * same everywhere, unlike a logarithm's. */
 static int bin_of(float x) {
     static const float eighths[BINS_A_STOP] = {
         1, 1.09050773f, 1.18920712f, 1.29683955f, 1.41421356f, 1.54221083f, 1.68179283f, 1.83400809f
@@ -41,7 +41,7 @@ static size_t fill_histogram(const image *pixels, size_t histogram[BINS]) {
     return lit;
 }
 
-/* The bin below which `wanted` pixels lie. */
+/* Returns the bin below which `wanted` pixels lie. */
 static int find_bin(const size_t histogram[BINS], double wanted) {
     double below = 0;
     int bin = 0;
@@ -88,7 +88,7 @@ float image_exposure_of_stops(float stops) {
 
 /* --- tone curves ------------------------------------------------------------------------------ */
 
-/* Inlined with each curve, so that what its channels share is computed once. */
+/* Applies a curve; inlined for each curve, so that what its channels share is computed once. */
 static inline void apply(float curve(int channel, float r, float g, float b), image_tone_run rgb) {
     for (int i = 0; i < IMAGE_TONE_RUN; i++) {
         const float r = rgb[0][i], g = rgb[1][i], b = rgb[2][i];
@@ -116,16 +116,16 @@ _Static_assert(sizeof image_tones / sizeof *image_tones <= IMAGE_TONES_MAX + 1,
 
 const char *const *image_tone_names(void) {
     static const char *names[IMAGE_TONES_MAX + 1];
-    cli_row_names(&image_tones[0].name, sizeof *image_tones,
-                  sizeof image_tones / sizeof *image_tones - 1, names);
+    choice_names(&image_tones[0].name, sizeof *image_tones,
+                 sizeof image_tones / sizeof *image_tones - 1, names);
     return names;
 }
 
 const char *image_tone_help(void) {
     static char text[256];
-    return cli_row_help("how a .png shows radiance", &image_tones[0].name, &image_tones[0].help,
-                        sizeof *image_tones, sizeof image_tones / sizeof *image_tones - 1, text,
-                        sizeof text);
+    return choice_help("how a .png shows radiance", &image_tones[0].name, &image_tones[0].help,
+                       sizeof *image_tones, sizeof image_tones / sizeof *image_tones - 1, text,
+                       sizeof text);
 }
 
 static float transfer(float radiance) {
@@ -133,9 +133,9 @@ static float transfer(float radiance) {
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
 }
 
-/* How linear values become bytes of sRGB: by the least value of each byte, from a first guess by
- * the value's root. The powers are taken in double and rounded, so that the bytes of an image do
- * not depend on the machine's mathematics. */
+/* Encoding to sRGB bytes: by the least value of each byte, from a first guess by the value's root.
+ * The powers are computed in double and rounded, so that the bytes of an image do not depend on the
+ * machine's math library. */
 enum { GUESSES = 4096 };
 typedef struct byte_curve {
     float least[257];
@@ -166,12 +166,12 @@ static unsigned char to_byte(const byte_curve *curve, float linear) {
     return (unsigned char)byte;
 }
 
-/* Keeps the curve's squares finite, and off its pole below 0; NaN is black. */
+/* Keeps the curve's squares finite, and away from its pole below 0; NaN becomes black. */
 static float limit(float x) {
     return x > 0 ? (x < SHARED_TONE_MAX ? x : SHARED_TONE_MAX) : 0;
 }
 
-/* What is shown of up to IMAGE_TONE_RUN pixels from `first` on; returns how many there are. */
+/* Maps up to IMAGE_TONE_RUN pixels from `first` on to displayed values; returns how many. */
 static size_t map_run(const image *pixels, size_t first, const image_display *display,
                       image_tone_run shown) {
     const size_t left = (size_t)pixels->width * (size_t)pixels->height - first;

@@ -22,7 +22,7 @@ const size_t blob_item_size[BLOB_SECTIONS] = {
     [BLOB_LIGHTS] = sizeof(scene_light),
     [BLOB_MOTIONS] = sizeof(scene_motion),
     [BLOB_OFFSETS] = sizeof(lmp_vec3),
-    [BLOB_LEFT_OUT] = sizeof(scene_left_out),
+    [BLOB_UNSUPPORTED] = sizeof(scene_unsupported),
     [BLOB_SOURCES] = sizeof(blob_source),
 };
 
@@ -98,7 +98,7 @@ static bool all_in_reach(const float *coordinates, size_t count) {
     return true;
 }
 
-/* A name is valid if cleaning it changes nothing. */
+/* Whether a name is valid, which means that cleaning it changes nothing. */
 static bool name_fits(const char name[SCENE_NAME_SIZE]) {
     char clean[SCENE_NAME_SIZE];
     if (name[SCENE_NAME_SIZE - 1] != 0)
@@ -119,7 +119,8 @@ void blob_bounds(const scene_vertex *vertices, const uint32_t *indices, size_t c
         }
 }
 
-/* A mesh whose bounds are not those of its vertices would be drawn, and lit, elsewhere. */
+/* Whether a mesh's bounds are those of its vertices: with others it would be drawn, and lit,
+ * elsewhere. */
 static bool bounds_fit(const blob_header *header, const scene_mesh *mesh) {
     const uint32_t *indices = blob_items(header, BLOB_INDICES);
     float minimum[3], maximum[3];
@@ -152,7 +153,7 @@ static bool geometry_fits(const blob_header *header) {
         if (indices[i] >= vertex_count)
             return false;
     const scene_mesh *meshes = blob_items(header, BLOB_MESHES);
-    uint64_t corners = 0; /* of all meshes: they do not overlap, or whoever copies them runs over */
+    uint64_t corners = 0; /* of all meshes: they do not overlap, or a copy of them would overrun */
     for (uint64_t i = 0; i < header->sections[BLOB_MESHES].count; i++)
         if (!name_fits(meshes[i].name) || meshes[i].index_count % 3 != 0 ||
             meshes[i].index_count == 0 || meshes[i].first_index > index_count ||
@@ -163,7 +164,7 @@ static bool geometry_fits(const blob_header *header) {
     return true;
 }
 
-/* Of all instances together there are no more triangles than 32 bits number. */
+/* Whether all instances together have no more triangles than 32 bits can number. */
 static bool instances_fit(const blob_header *header) {
     uint64_t corners = 0;
     scene s;
@@ -194,7 +195,7 @@ static bool maps_fit(const scene_material *m, uint64_t texture_count) {
     return true;
 }
 
-/* 0 … 1, all of them. */
+/* Whether all numbers are in 0 … 1. */
 static bool all_parts(const float *numbers, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (!(numbers[i] >= 0.0f && numbers[i] <= 1.0f))
@@ -202,7 +203,8 @@ static bool all_parts(const float *numbers, size_t count) {
     return true;
 }
 
-/* One after another, so that none has the texels of another; and how many bytes they are. */
+/* Whether images follow one another, so that no two share texels; *texel_bytes receives their
+ * size. */
 static bool images_fit(const blob_header *header, uint64_t *texel_bytes) {
     const scene_image *images = blob_items(header, BLOB_IMAGES);
     const uint64_t count = header->sections[BLOB_IMAGES].count;
@@ -231,11 +233,13 @@ static bool materials_fit(const blob_header *header) {
             m->metallic, m->roughness, m->normal_scale, m->alpha_cutoff,
             m->f0[0],    m->f0[1],     m->f0[2],        m->coat_normal_scale
         };
-        const float parts[] = { m->f90, m->occlusion, m->coat, m->coat_roughness,
-                                m->sheen_roughness };
+        const float parts[] = {
+            m->f90, m->occlusion, m->coat, m->coat_roughness, m->sheen_roughness, m->transmission
+        };
         if (!name_fits(m->name) || !all_finite(m->base_color, 4) || !all_finite(numbers, 8) ||
-            !scene_color_fits(m->emission) || !all_parts(parts, 5) ||
-            !all_parts(m->sheen_color, 3) || !maps_fit(m, texture_count))
+            !scene_color_fits(m->emission) || !all_parts(parts, 6) ||
+            !all_parts(m->sheen_color, 3) || !all_parts(m->transmission_color, 3) ||
+            !maps_fit(m, texture_count))
             return false;
     }
     const scene_texture *textures = blob_items(header, BLOB_TEXTURES);
@@ -268,7 +272,9 @@ static bool views_fit(const blob_header *header) {
     const scene_light *lights = blob_items(header, BLOB_LIGHTS);
     for (uint64_t i = 0; i < header->sections[BLOB_LIGHTS].count; i++) {
         scene_light_error wrong;
-        if (lights[i].hidden > 1 || !scene_light_check(&lights[i], &wrong))
+        if (lights[i].hidden > 1 || lights[i].glows_both > 1 ||
+            lights[i].glow > header->sections[BLOB_INSTANCES].count ||
+            !scene_light_check(&lights[i], &wrong))
             return false;
     }
     const blob_source *sources = blob_items(header, BLOB_SOURCES);
@@ -285,7 +291,7 @@ static bool motions_fit(const blob_header *header) {
     uint64_t offsets_used = 0;
     for (uint64_t i = 0; i < header->sections[BLOB_MOTIONS].count; i++) {
         const scene_motion *m = &motions[i];
-        /* by rising lights: none has two */
+        /* in ascending order of lights, so that no light has two */
         if (m->light >= light_count || (i > 0 && m->light <= motions[i - 1].light) ||
             m->count < 2 || m->first > offset_count || m->count > offset_count - m->first ||
             (offsets_used += m->count) > offset_count || !(m->period > 0.0f) ||
@@ -304,36 +310,36 @@ static bool variants_fit(const blob_header *header) {
     return true;
 }
 
-static bool left_out_fits(const blob_header *header) {
-    const scene_left_out *items = blob_items(header, BLOB_LEFT_OUT);
-    const uint64_t count = header->sections[BLOB_LEFT_OUT].count;
-    for (uint64_t i = 0; i < count && i < SCENE_LEFT_OUT_MAX; i++)
+static bool unsupported_fits(const blob_header *header) {
+    const scene_unsupported *items = blob_items(header, BLOB_UNSUPPORTED);
+    const uint64_t count = header->sections[BLOB_UNSUPPORTED].count;
+    for (uint64_t i = 0; i < count && i < SCENE_UNSUPPORTED_MAX; i++)
         if (!name_fits(items[i].what) || !name_fits(items[i].noun))
             return false;
-    return count <= SCENE_LEFT_OUT_MAX;
+    return count <= SCENE_UNSUPPORTED_MAX;
 }
 
 bool blob_validate(const void *block, size_t size, bool checksum, const char *subject,
-                   cli_error *error) {
+                   base_error *error) {
     const blob_header *header = block;
     if (!header_fits(header, size))
-        return cli_fail(error, subject, "gave a scene that is damaged or of another version");
+        return base_fail(error, subject, "gave a scene that is damaged or of another version");
     file_hash content = { 0 };
     for (int i = 0; checksum && i < BLOB_SECTIONS; i++)
         file_hash_add(&content, blob_items(block, (blob_section)i),
                       header->sections[i].count * blob_item_size[i]);
     if (checksum && (content.low != header->content.low || content.high != header->content.high))
-        return cli_fail(error, subject, "gave a scene whose checksum is wrong");
+        return base_fail(error, subject, "gave a scene whose checksum is wrong");
     if (!geometry_fits(header) || !instances_fit(header))
-        return cli_fail(error, subject, "has vertices or triangles that make no sense");
+        return base_fail(error, subject, "has invalid vertices or triangles");
     if (!materials_fit(header) || !variants_fit(header))
-        return cli_fail(error, subject, "has materials or textures that make no sense");
+        return base_fail(error, subject, "has invalid materials or textures");
     if (!views_fit(header))
-        return cli_fail(error, subject, "has cameras or lights that make no sense");
-    if (!left_out_fits(header))
-        return cli_fail(error, subject, "gave a list of what is left out that makes no sense");
+        return base_fail(error, subject, "has invalid cameras or lights");
+    if (!unsupported_fits(header))
+        return base_fail(error, subject, "has an invalid list of unsupported features");
     if (!motions_fit(header))
-        return cli_fail(error, subject, "has an animation that makes no sense");
+        return base_fail(error, subject, "has an invalid animation");
     return true;
 }
 
@@ -361,14 +367,14 @@ static void measure(scene *s) {
     scene_bounds(s, s->minimum, s->maximum);
 }
 
-bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_error *error) {
+bool blob_open(void *block, size_t size, const char *subject, scene *s, base_error *error) {
     const blob_header *header = block;
     scene_light *lights = calloc(SCENE_LIGHTS_MAX, sizeof *lights);
     scene_frame *frame = calloc(1, sizeof *frame);
     if (!lights || !frame) {
         free(lights);
         free(frame);
-        return cli_fail(error, subject, "does not fit into memory");
+        return base_fail(error, subject, "does not fit into memory");
     }
     memcpy(lights, blob_items(block, BLOB_LIGHTS),
            header->sections[BLOB_LIGHTS].count * sizeof *lights);
@@ -381,7 +387,7 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->cameras = blob_items(block, BLOB_CAMERAS);
     s->motions = blob_items(block, BLOB_MOTIONS);
     s->offsets = blob_items(block, BLOB_OFFSETS);
-    s->left_out = blob_items(block, BLOB_LEFT_OUT);
+    s->unsupported = blob_items(block, BLOB_UNSUPPORTED);
     s->material_count = header->sections[BLOB_MATERIALS].count;
     s->variant_count = header->sections[BLOB_VARIANTS].count;
     s->texture_count = header->sections[BLOB_TEXTURES].count;
@@ -393,7 +399,7 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->camera_count = header->sections[BLOB_CAMERAS].count;
     s->motion_count = header->sections[BLOB_MOTIONS].count;
     s->offset_count = header->sections[BLOB_OFFSETS].count;
-    s->left_out_count = header->sections[BLOB_LEFT_OUT].count;
+    s->unsupported_count = header->sections[BLOB_UNSUPPORTED].count;
     s->lights = lights;
     s->frame = frame;
     s->light_count = header->sections[BLOB_LIGHTS].count;

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* blob.h - a scene as one flat relocatable block: header, then arrays at offsets. It is what the
- * importing child hands back, and the file of the cache; both are validated before use. */
+/* blob.h - a scene as one flat relocatable block: header, then arrays at offsets. The importing
+ * child returns it, and the cache stores it; it is validated before use. */
 #ifndef LAMPION_SCENE_BLOB_H
 #define LAMPION_SCENE_BLOB_H
 
-#include "app/file/file.h"
+#include "app/base/error.h"
+#include "app/base/file_hash.h"
 #include "app/scene/scene.h"
 
 #define BLOB_MAGIC   "LAMPSCN"
-#define BLOB_VERSION 15u /* raise with any change of the layout or of what the importer makes */
+#define BLOB_VERSION 18u /* raise with any change of the layout or of what the importer makes */
 
 typedef enum blob_section {
     BLOB_VERTICES,
@@ -20,19 +21,19 @@ typedef enum blob_section {
     BLOB_TEXTURES,
     BLOB_IMAGES,
     BLOB_ENCODED,
-    BLOB_TEXELS, /* of scenes made in code, which have no images */
+    BLOB_TEXELS, /* of scenes made in code, which have no encoded images */
     BLOB_CAMERAS,
     BLOB_LIGHTS,
     BLOB_MOTIONS,
     BLOB_OFFSETS,
-    BLOB_LEFT_OUT,
+    BLOB_UNSUPPORTED,
     BLOB_SOURCES,
     BLOB_SECTIONS
 } blob_section;
 
-/* A file the scene was made from, for the cache; the scene file itself is not among them. */
+/* A file that the scene was made from, for the cache; the scene file itself is not listed. */
 #define BLOB_SOURCES_MAX   4096
-#define BLOB_SOURCE_ABSENT UINT64_MAX /* the size of one that could not be read */
+#define BLOB_SOURCE_ABSENT UINT64_MAX /* the size of a file that could not be read */
 typedef struct blob_source {
     char path[512]; /* relative to the scene's folder */
     uint64_t size;
@@ -50,33 +51,34 @@ typedef struct blob_header {
     } sections[BLOB_SECTIONS];
 } blob_header;
 
-/* Size of one item of each section. */
+/* The size of one item of each section. */
 extern const size_t blob_item_size[BLOB_SECTIONS];
 
-/* The header of a blob with these numbers of items: offsets laid out, aligned to 16 bytes. */
+/* Fills in the header of a blob with these numbers of items: offsets laid out, aligned to 16
+ * bytes. */
 void blob_layout(blob_header *header, const size_t counts[BLOB_SECTIONS]);
 
-/* The array of a section of a blob whose header has been validated. */
+/* Returns the array of a section of a blob whose header has been validated. */
 const void *blob_items(const void *block, blob_section section);
 
-/* Where the texels of an image begin: the one before ends at `end`. Images may then be decoded to
- * pages of their own. */
+/* Returns where the texels of an image begin, at the start of a page, if the image before ends at
+ * `end`. Images may then be decoded to pages of their own. */
 #define BLOB_PAGE 4096
 uint64_t blob_first_texel(uint64_t end);
 
-/* The bounds of the vertices of count > 0 indices. */
+/* Finds the bounds of the vertices of count > 0 indices. */
 void blob_bounds(const scene_vertex *vertices, const uint32_t *indices, size_t count,
                  float minimum[3], float maximum[3]);
 
-/* Points *scene at the geometry of a block whose header has been validated; the rest is zero. */
+/* Points *scene at the geometry of a block whose header has been validated; zeroes the rest. */
 void blob_geometry(const void *block, scene *scene);
 
-/* Checks every offset, count, index, number, bound and name of the blob, and with `checksum` its
- * content hash. `subject` is named in the error. */
+/* Checks every offset, count, index, number, bound and name of the blob, and its content hash if
+ * `checksum`. `subject` is named in the error. */
 bool blob_validate(const void *block, size_t size, bool checksum, const char *subject,
-                   cli_error *error);
+                   base_error *error);
 
-/* Points *scene into a validated block and copies its lights; bounds and area are computed. */
-bool blob_open(void *block, size_t size, const char *subject, scene *scene, cli_error *error);
+/* Points *scene into a validated block and copies its lights; computes bounds and area. */
+bool blob_open(void *block, size_t size, const char *subject, scene *scene, base_error *error);
 
 #endif

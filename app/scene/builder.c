@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/builder.h"
 
+#include "app/base/file_hash.h"
+#include "app/base/memory.h"
 #include "app/scene/center.h"
 #include "app/scene/instance.h"
 #include "app/scene/name.h"
@@ -28,7 +30,7 @@ void *builder_append(scene_builder *builder, blob_section section, size_t count)
         size_t capacity = array->capacity ? array->capacity * 2 : 64;
         while (capacity < array->count + count)
             capacity *= 2;
-        void *items = realloc(array->items, capacity * item);
+        void *items = memory_large_resize(array->items, capacity * item);
         if (!items) {
             builder->out_of_memory = true;
             return NULL;
@@ -71,7 +73,7 @@ void builder_sphere_light(scene_builder *builder, lmp_vec3 center, float radius,
     };
 }
 
-/* Moves the last mesh to where it is near 0, if it is not. */
+/* Moves the last mesh near 0 if it is far from it. */
 static void center_mesh(scene_builder *builder, scene_mesh *mesh) {
     const size_t count = builder_count(builder, BLOB_MESHES);
     double(*centers)[3] = realloc(builder->centers, count * sizeof *centers);
@@ -147,18 +149,18 @@ void builder_geometry(const scene_builder *builder, scene *s) {
     memcpy(s->origin, builder->origin, sizeof s->origin);
 }
 
-void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count) {
+void builder_unsupported(scene_builder *builder, const char *what, const char *noun, size_t count) {
     char name[SCENE_NAME_SIZE];
     if (count == 0)
         return;
     scene_clean_name(name, what ? what : "");
-    scene_left_out *items = builder_items(builder, BLOB_LEFT_OUT), *found = NULL;
-    const size_t known = builder_count(builder, BLOB_LEFT_OUT);
+    scene_unsupported *items = builder_items(builder, BLOB_UNSUPPORTED), *found = NULL;
+    const size_t known = builder_count(builder, BLOB_UNSUPPORTED);
     for (size_t i = 0; i < known && !found; i++)
         if (strcmp(items[i].what, name) == 0 && strcmp(items[i].noun, noun) == 0)
             found = &items[i];
-    if (!found && known < SCENE_LEFT_OUT_MAX) {
-        found = builder_append(builder, BLOB_LEFT_OUT, 1);
+    if (!found && known < SCENE_UNSUPPORTED_MAX) {
+        found = builder_append(builder, BLOB_UNSUPPORTED, 1);
         if (!found)
             return;
         memcpy(found->what, name, sizeof name);
@@ -168,15 +170,15 @@ void builder_left_out(scene_builder *builder, const char *what, const char *noun
         found->count += (uint32_t)count;
 }
 
-void builder_left_out_file(scene_builder *builder, const char *path, const char *noun) {
+void builder_unsupported_file(scene_builder *builder, const char *path, const char *noun) {
     static const char gap[] = "...";
     char name[SCENE_NAME_SIZE];
     const size_t length = strlen(path), room = sizeof name - sizeof gap;
     const char *tail = length < sizeof name ? path : path + length - room;
-    while (tail > path && (*tail & 0xc0) == 0x80) /* not amid a character */
+    while (tail > path && (*tail & 0xc0) == 0x80) /* not inside a character */
         tail++;
     snprintf(name, sizeof name, "%s%s", tail > path ? gap : "", tail);
-    builder_left_out(builder, name, noun, 1);
+    builder_unsupported(builder, name, noun, 1);
 }
 
 void builder_header(const scene_builder *builder, bool checksum, blob_header *header) {
@@ -193,7 +195,7 @@ bool builder_pack(const scene_builder *builder, void **block, size_t *size) {
     blob_header header;
     builder_header(builder, false, &header);
     *block = NULL;
-    if (builder->out_of_memory || !(*block = malloc(header.size)))
+    if (builder->out_of_memory || !(*block = memory_large(header.size)))
         return false;
     *size = header.size;
     memcpy(*block, &header, sizeof header);

@@ -6,14 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-/* What is more than so many times its length away from 0 is far: of float32's 24 bits more than 6
- * would then tell but where it is. */
+/* Bounds this many times their length away from 0 are far: more than 6 of float32's 24 bits would
+ * tell only where they are. */
 #define FAR_RATIO 64.0
 
-/* As near as two numbers of float32 so far away are to each other, about: no bounds are shorter. */
+/* The spacing of float32 numbers relative to their size, about: no bounds are taken for shorter. */
 #define NEIGHBORS 0x1p-22
 
-/* A center is a multiple of a power of two that the bounds are up to 16 times as long as. */
+/* Centers are multiples of a power of two, at least a sixteenth of the bounds' length. */
 #define STEP_EXPONENT (-4)
 
 double center_length(const float low[3], const float high[3]) {

@@ -3,8 +3,8 @@
 #ifndef LAMPION_SCENE_ESCAPE_H
 #define LAMPION_SCENE_ESCAPE_H
 
-/* The next byte of a text that is not at its end: what %XX stands for, or a character. *at moves
- * past it. */
+/* Decodes the next byte of a text that is not at its end: %XX, or a plain character. Moves *at past
+ * it. */
 char escape_next(const char **at);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* Appends the mesh of an instance as it stands in the world. */
+/* Appends the mesh of an instance, transformed into the world. */
 static void append_moved(scene_builder *builder, scene_instance placed) {
     const scene_mesh mesh = ((scene_mesh *)builder_items(builder, BLOB_MESHES))[placed.mesh];
     const size_t first_index = builder_count(builder, BLOB_INDICES);
@@ -36,7 +36,7 @@ static void append_moved(scene_builder *builder, scene_instance placed) {
 
 void builder_flatten(scene_builder *builder) {
     const size_t count = builder_count(builder, BLOB_INSTANCES);
-    builder->centers_meshes = false; /* they are to stand in the scene */
+    builder->centers_meshes = false; /* the meshes are to stay at their positions in the scene */
     for (size_t i = 0; i < count; i++) {
         scene_instance *instances = builder_items(builder, BLOB_INSTANCES);
         if (scene_instance_is_identity(&instances[i]))

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* The camera of a scene that brings none: before a model, inside a building. */
+/* The camera of a scene that has none: outside, before a model, or inside a building. */
 #include "app/scene/instance.h"
 #include "app/scene/interior.h"
 #include "app/scene/space.h"
 #include "app/scene/vector.h"
 
 #define DEFAULT_FOV   0.7854f /* 45° */
-#define INSIDE_FOV    1.2f    /* wide, as one sees rooms */
-#define INSIDE_BACK   0.8f    /* of the way to the wall behind */
-#define INSIDE_HEIGHT 0.4f    /* of a room's height */
-#define FRAMING_PART  0.9f    /* of the image that an automatic camera fills at most */
+#define INSIDE_FOV    1.2f    /* wide, as rooms are photographed */
+#define INSIDE_BACK   0.8f    /* fraction of the distance to the wall behind */
+#define INSIDE_HEIGHT 0.4f    /* fraction of a room's height */
+#define FRAMING_PART  0.9f    /* fraction of the image that a model fills at most */
 
-/* Looks to the middle of a room, from where there is most of it. Where no wall says how far one may
- * go, it looks ahead from the middle. */
+/* Looks at the middle of a room from where most of it is visible. Where no wall limits how far the
+ * camera may go, it looks ahead from the middle. */
 static scene_camera camera_inside(const scene *s, lmp_vec3 middle) {
     scene_camera camera = { .name = "inside", .up = { 0.0f, 1.0f, 0.0f }, .fov = INSIDE_FOV };
     const space_room room = space_room_at(s, middle);
@@ -37,16 +37,17 @@ static scene_camera camera_inside(const scene *s, lmp_vec3 middle) {
     return camera;
 }
 
-/* A model is seen along -from, by a pyramid of these slopes. Its planes touch the model where
- * x + slope z and -x + slope z are largest, which says where its tip is between two of them. */
+/* The view pyramid of a model, with these slopes, looking along -from. Its planes touch the model
+ * where x + slope z and -x + slope z are largest, which gives the position of its tip between two
+ * of them. */
 typedef struct pyramid {
     lmp_vec3 center, right, up, from;
     float slope[2];    /* across, along up */
-    float touching[4]; /* right, left, top, bottom */
+    float touching[4]; /* distance of the plane that touches: right, left, top, bottom */
     float radius;      /* of the model around its center */
 } pyramid;
 
-/* How far a point reaches past the planes, and away from the center. */
+/* Finds how far a point reaches past the planes and away from the center. */
 static void reach_of(const pyramid *f, lmp_vec3 point, float sides[4], float *radius) {
     const lmp_vec3 p = vec_sub(point, f->center);
     const float x = vec_dot(f->right, p), y = vec_dot(f->up, p), z = vec_dot(f->from, p);
@@ -57,7 +58,7 @@ static void reach_of(const pyramid *f, lmp_vec3 point, float sides[4], float *ra
     *radius = vec_length(p);
 }
 
-/* Whether something in the instance's box may reach farther than what has been touched. */
+/* Whether the instance's box may reach farther than what has been touched so far. */
 static bool may_touch(const scene *s, size_t instance, const pyramid *f) {
     float box[2][3], sides[4], radius;
     scene_instance_box(s, instance, box[0], box[1]);
@@ -96,8 +97,9 @@ static float half_width(const pyramid *f, int axis) {
     return 0.5f * (f->touching[2 * axis] + f->touching[2 * axis + 1]);
 }
 
-/* From how far away every triangle fits into the image; but the camera never stands inside. Where
- * there is room to spare, planes less steep touch from there. */
+/* Returns the distance at which every triangle fits into the image; the camera never stands inside
+ * the model. Where the view is wider than needed, slopes shrink until the planes touch from
+ * there. */
 static float fit(const scene *s, pyramid *f) {
     enum { PASSES = 4 };
     touch(s, f);
@@ -111,7 +113,7 @@ static float fit(const scene *s, pyramid *f) {
     return distance;
 }
 
-/* The model in the middle of the image, as near as fits. */
+/* Puts the model in the middle of the image, as near as fits. */
 static scene_camera camera_before(const scene *s, int quarter, float aspect) {
     static const float from[4][2] = {
         { 0.45f, 1.0f }, { 1.0f, -0.45f }, { -0.45f, -1.0f }, { -1.0f, 0.45f }
@@ -141,7 +143,8 @@ float scene_camera_height(const scene_camera *camera, float distance) {
                                  : 2.0f * distance * (float)tan(0.5 * (double)camera->fov);
 }
 
-/* Narrower images see more above and below. */
+/* Widens the field of view for images narrower than the camera's aspect, which then see more above
+ * and below. */
 static void widen(scene_camera *camera, float aspect) {
     if (!(aspect > 0.0f && aspect < camera->aspect))
         return;
@@ -150,7 +153,7 @@ static void widen(scene_camera *camera, float aspect) {
         (float)(2.0 * atan(tan(0.5 * (double)camera->fov) * (double)(camera->aspect / aspect)));
 }
 
-/* The file's first. */
+/* Returns the file's first camera. */
 static scene_camera own_camera(const scene *s, float aspect) {
     scene_camera first = s->cameras[0];
     widen(&first, aspect);
@@ -161,10 +164,10 @@ static scene_camera own_camera(const scene *s, float aspect) {
 
 const char *const scene_framing_names[] = { "auto", "outside", "inside", NULL };
 
-#define FRONTS_POOR   0.5f  /* of what is seen is fronts: other sides are tried */
-#define FRONTS_BETTER 0.25f /* so much more is worth to go around */
+#define FRONTS_POOR   0.5f  /* below this fraction of fronts, other sides are tried */
+#define FRONTS_BETTER 0.25f /* by which another side must be better */
 
-/* Boxes are looked into from where they are open. */
+/* Returns the side that shows most fronts: boxes are viewed from where they are open. */
 static int best_quarter(const scene_interior *found) {
     int best = 0;
     if (found->fronts_before[0] < FRONTS_POOR)
@@ -175,8 +178,17 @@ static int best_quarter(const scene_interior *found) {
     return best;
 }
 
+/* Whether every material is drawn from both sides, as those of formats that say nothing of sides
+ * are. */
+static bool draws_backs(const scene *s) {
+    for (size_t i = 0; i < s->material_count; i++)
+        if (!(s->materials[i].flags & SCENE_DOUBLE_SIDED))
+            return false;
+    return s->material_count > 0;
+}
+
 static scene_frame find_frame(const scene *s, scene_framing wanted) {
-    scene_frame frame = { .wanted = wanted, .framing = wanted };
+    scene_frame frame = { .wanted = wanted, .framing = wanted, .sky = 1.0f };
     scene_grid *grid = s->index_count > 0 ? scene_grid_create(s) : NULL;
     if (frame.framing == SCENE_FRAMING_AUTO)
         frame.framing = SCENE_FRAMING_OUTSIDE;
@@ -185,6 +197,8 @@ static scene_frame find_frame(const scene *s, scene_framing wanted) {
     const scene_interior found = scene_interior_find(grid);
     frame.middle = found.middle;
     frame.quarter = best_quarter(&found);
+    if (s->camera_count == 0 || wanted == SCENE_FRAMING_OUTSIDE)
+        frame.sky = scene_interior_sky(grid, frame.quarter, draws_backs(s));
     frame.own = s->camera_count > 0 && scene_interior_closes(grid, vec_load(s->cameras->eye));
     if (wanted == SCENE_FRAMING_AUTO && (s->camera_count > 0 ? frame.own : found.inside))
         frame.framing = SCENE_FRAMING_INSIDE;

@@ -6,9 +6,10 @@
 
 #include <stdlib.h>
 
-#define GRID_FINE 2.0f  /* samples of a triangle a cell */
-#define GRID_FLAT 1e-3f /* of the longest extent: what a shorter one is taken for */
-#define GRID_SIDE 0.5f  /* of the area that faces away: the front that is seen beside it */
+#define GRID_FINE  2.0f  /* samples of a triangle per cell */
+#define GRID_FLAT  1e-3f /* of the longest extent: the least extent of any axis */
+#define GRID_SIDE  0.5f  /* of the area facing away: a front beside it that is larger is seen */
+#define GRID_LEVEL 0.8f  /* of the area along all axes, at least: along y, a slope of up to 14° */
 
 /* --- filling ---------------------------------------------------------------------------------- */
 
@@ -16,22 +17,28 @@ static size_t cell_at(const int cell[3]) {
     return ((size_t)cell[2] * GRID_CELLS + (size_t)cell[1]) * GRID_CELLS + (size_t)cell[0];
 }
 
+static bool is_filled(const scene_grid *g, size_t cell) {
+    return g->filled[cell / 8] >> cell % 8 & 1;
+}
+
 static int inside(float cells) {
     return !(cells > 0.0f) ? 0 : cells < GRID_CELLS ? (int)cells : GRID_CELLS - 1;
 }
 
-/* Its length in cells, along the axis that has most. */
+/* Returns the length of an edge in cells, along the axis where it is longest. */
 static float span(const scene_grid *g, lmp_vec3 edge) {
     return fmaxf(fabsf(edge.x) / g->size[0],
                  fmaxf(fabsf(edge.y) / g->size[1], fabsf(edge.z) / g->size[2]));
 }
 
-/* Nothing is longer than the grid, unless its bounds are those of something else. */
+/* Returns the samples along an edge. No edge is longer than the grid unless the scene's bounds are
+ * wrong. */
 static int steps(float span) {
     return span < GRID_CELLS ? 1 + (int)(GRID_FINE * span) : 1;
 }
 
-/* Spreads the triangle over its cells: samples along its shortest side and another one. */
+/* Adds a triangle's area to the cells that it covers, at samples along its shortest side and
+ * another one. */
 static void add(scene_grid *g, const float corners[3][3]) {
     lmp_vec3 corner[3];
     int apex = 0;
@@ -60,7 +67,9 @@ static void add(scene_grid *g, const float corners[3][3]) {
             const int cell[3] = { inside((p.x - g->low[0]) / g->size[0]),
                                   inside((p.y - g->low[1]) / g->size[1]),
                                   inside((p.z - g->low[2]) / g->size[2]) };
-            float *facing = g->facing[cell_at(cell)];
+            const size_t at = cell_at(cell);
+            float *facing = g->facing[at];
+            g->filled[at / 8] |= (unsigned char)(1 << at % 8);
             for (int k = 0; k < 3; k++)
                 facing[2 * k + (twice[k] > 0.0f)] += fabsf(twice[k]) * part;
         }
@@ -73,7 +82,8 @@ scene_grid *scene_grid_create(const scene *s) {
         longest = fmaxf(longest, s->maximum[k] - s->minimum[k]);
     for (int k = 0; k < 3 && g; k++) {
         const float extent = fmaxf(s->maximum[k] - s->minimum[k], GRID_FLAT * longest);
-        /* bounds in the middle of cells: on a side, roundings would scatter a wall over both */
+        /* the bounds lie in the middle of cells: on a cell's side, rounding would scatter a wall
+         * over both */
         g->size[k] = extent > 0.0f ? extent / (float)(GRID_CELLS - 3) : 1.0f;
         g->low[k] = 0.5f * (s->minimum[k] + s->maximum[k]) - 0.5f * (float)GRID_CELLS * g->size[k];
     }
@@ -108,20 +118,20 @@ bool scene_grid_is_empty(const scene_grid *g, lmp_vec3 point) {
     const int cell[3] = { inside((point.x - g->low[0]) / g->size[0]),
                           inside((point.y - g->low[1]) / g->size[1]),
                           inside((point.z - g->low[2]) / g->size[2]) };
-    const float *facing = g->facing[cell_at(cell)];
+    const size_t at = cell_at(cell);
     float all = 0.0f;
-    for (int i = 0; i < 6; i++)
-        all += facing[i];
+    for (int i = 0; i < 6 && is_filled(g, at); i++)
+        all += g->facing[at][i];
     return !(all > 0.0f);
 }
 
-/* The cells along a line, in order. */
+/* A walk through the cells along a line, in order. */
 typedef struct walk {
     int cell[3], step[3];
-    float next[3], every[3]; /* distances: to the next cell of each axis, and on to another */
+    float next[3], every[3]; /* distances to the next cell along each axis, and between cells */
 } walk;
 
-/* Where the line enters the grid; false if it misses it. */
+/* Finds where the line enters the grid; returns false if it misses. */
 static bool begin(const scene_grid *g, const float from[3], const float way[3], float *start,
                   walk *w) {
     float enter = 0.0f, leave = INFINITY;
@@ -146,7 +156,9 @@ static bool begin(const scene_grid *g, const float from[3], const float way[3], 
     return enter < leave;
 }
 
-grid_hit scene_grid_look(const scene_grid *g, lmp_vec3 from, lmp_vec3 way, float *distance) {
+/* Walks to the first surface and sets *facing to its cell's. */
+static grid_hit look(const scene_grid *g, lmp_vec3 from, lmp_vec3 way, float *distance,
+                     const float **facing) {
     const float p[3] = { from.x, from.y, from.z }, d[3] = { way.x, way.y, way.z };
     walk w;
     if (!begin(g, p, d, distance, &w))
@@ -160,8 +172,27 @@ grid_hit scene_grid_look(const scene_grid *g, lmp_vec3 from, lmp_vec3 way, float
         w.next[axis] += w.every[axis];
         if (w.cell[axis] < 0 || w.cell[axis] >= GRID_CELLS)
             return GRID_NOTHING;
-        const grid_hit hit = hit_of(g->facing[cell_at(w.cell)], d);
+        const size_t at = cell_at(w.cell);
+        if (!is_filled(g, at))
+            continue;
+        *facing = g->facing[at];
+        const grid_hit hit = hit_of(*facing, d);
         if (hit != GRID_NOTHING)
             return hit;
     }
+}
+
+grid_hit scene_grid_look(const scene_grid *g, lmp_vec3 from, lmp_vec3 way, float *distance) {
+    const float *facing;
+    return look(g, from, way, distance, &facing);
+}
+
+bool scene_grid_is_level_below(const scene_grid *g, lmp_vec3 point) {
+    const float *facing;
+    float distance, all = 0.0f;
+    if (look(g, point, vec(0.0f, -1.0f, 0.0f), &distance, &facing) == GRID_NOTHING)
+        return false;
+    for (int i = 0; i < 6; i++)
+        all += facing[i];
+    return facing[2] + facing[3] >= GRID_LEVEL * all;
 }

@@ -19,10 +19,10 @@ bool scene_instance_is_identity(const scene_instance *instance) {
 
 /* --- matrices --------------------------------------------------------------------------------- */
 
-/* Cofactors are of the second degree, and their squares of the fourth. */
+/* The range of scales that fit: cofactors are products of two elements, their squares of four. */
 #define SCALE_SMALLEST 1e-8
 #define SCALE_LARGEST  1e8
-#define VOLUME_LEAST   1e-4 /* of a cube, by the lengths that its edges get; and of these lengths */
+#define VOLUME_LEAST   1e-4 /* of a cube's volume to its edges' product; of shortest to longest */
 
 bool scene_instance_fits(const scene_instance *instance) {
     double m[3][3], length[3];
@@ -67,7 +67,7 @@ static lmp_vec3 row_of(const scene_instance *instance, int row) {
     return vec_load(instance->world_from_mesh[row]);
 }
 
-/* The rows of the matrix that takes normals along, up to scale. */
+/* Computes the rows of the matrix that transforms normals, up to scale. */
 static void cofactors(const scene_instance *instance, lmp_vec3 rows[3]) {
     for (int i = 0; i < 3; i++)
         rows[i] = vec_cross(row_of(instance, (i + 1) % 3), row_of(instance, (i + 2) % 3));
@@ -98,7 +98,8 @@ void scene_instance_vertices(const scene_instance *instance, scene_vertex *verti
     }
 }
 
-/* The root of the sum of squares: no less than the largest, and at most by the root of 3 more. */
+/* Returns the Frobenius norm: no less than the largest scale, and at most the root of 3 times
+ * it. */
 float scene_instance_scale(const scene_instance *instance) {
     double square = 0.0;
     for (int k = 0; k < 3; k++)

@@ -1,31 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* instance.h - the triangles of a scene in the world: each mesh as often as it has instances. */
+/* instance.h - the triangles of a scene in the world: those of each mesh, once per instance. */
 #ifndef LAMPION_SCENE_INSTANCE_H
 #define LAMPION_SCENE_INSTANCE_H
 
 #include "app/scene/scene.h"
 
-/* The instance that leaves its mesh as it is: its numbers, to the bit, are those of the mesh. */
+/* Returns the instance that leaves its mesh as it is, to the bit. */
 scene_instance scene_instance_identity(uint32_t mesh);
 bool scene_instance_is_identity(const scene_instance *instance);
 
-/* The product of two column-major matrices, which takes b's space where a takes that of a. */
+/* Multiplies two column-major matrices: the product applies b, then a. */
 void scene_multiply(const double a[16], const double b[16], double product[16]);
 
-/* Rounds a column-major matrix. False if that does not fit an instance. */
+/* Rounds a column-major matrix to an instance; returns false if it does not fit one. */
 bool scene_instance_set(scene_instance *instance, const double matrix[16]);
 
-/* Whether normals and tangents can follow the matrix in float32: it is finite, and neither
- * flattens, shears nor scales too much. Of another one the vertices have to be transformed
- * beforehand. */
+/* Whether normals and tangents can follow the matrix in float32: it is finite and does not flatten,
+ * shear or scale too much. Vertices under any other matrix must be transformed beforehand. */
 bool scene_instance_fits(const scene_instance *instance);
 
-/* Whether front and back change sides: scene_triangle then swaps the second and the third corner.
- */
+/* Whether the instance swaps front and back; scene_triangle then swaps the second and third
+ * corner. */
 bool scene_instance_mirrors(const scene_instance *instance);
 
-/* A position in the world; everything that looks for triangles there computes it by these
- * operations, so that all of it agrees to the bit. */
+/* Transforms a position into the world. All code that needs world positions uses these operations,
+ * so that results agree to the bit. */
 static inline void scene_instance_point(const scene_instance *instance, const float p[3],
                                         float world[3]) {
     for (int k = 0; k < 3; k++) {
@@ -34,27 +33,27 @@ static inline void scene_instance_point(const scene_instance *instance, const fl
     }
 }
 
-/* Takes whole vertices into the world; normals and tangents are unit there too. */
+/* Transforms whole vertices into the world; normals and tangents stay unit. */
 void scene_instance_vertices(const scene_instance *instance, scene_vertex *vertices, size_t count);
 
-/* What the lengths of a mesh grow by at most. */
+/* Returns an upper bound of the factor by which lengths in the mesh grow. */
 float scene_instance_scale(const scene_instance *instance);
 
-/* A box in which all these positions of the instance lie. */
+/* Finds a box that contains all positions of the instance in the world. */
 void scene_instance_box(const scene *scene, size_t instance, float minimum[3], float maximum[3]);
 
-/* The number of the material that its triangles have. */
+/* Returns the number of the material of the instance's triangles. */
 static inline uint32_t scene_instance_material(const scene *s, size_t instance) {
     return s->meshes[s->instances[instance].mesh].material;
 }
 
-/* Triangles of an instance, and of all of them. */
+/* Return the number of triangles of an instance, and of all instances. */
 uint32_t scene_instance_triangles(const scene *scene, size_t instance);
 size_t scene_triangle_count(const scene *scene);
 
-/* The corners of a triangle of an instance, counter-clockwise to who sees its front: the vertices
- * of the mesh; their positions in the world; or whole vertices in world space, normals and tangents
- * unit. */
+/* Return the corners of a triangle of an instance, counter-clockwise as seen from its front: as
+ * vertices of the mesh; as positions in the world; or as whole vertices in the world, with unit
+ * normals and tangents. */
 void scene_triangle_vertices(const scene *scene, size_t instance, uint32_t triangle,
                              const scene_vertex *corners[3]);
 void scene_triangle_positions(const scene *scene, size_t instance, uint32_t triangle,
@@ -62,10 +61,11 @@ void scene_triangle_positions(const scene *scene, size_t instance, uint32_t tria
 void scene_triangle(const scene *scene, size_t instance, uint32_t triangle,
                     scene_vertex corners[3]);
 
-/* The bounds of all positions. False without an instance: *minimum and *maximum are then left. */
+/* Finds the bounds of all positions. Returns false and leaves *minimum and *maximum alone if there
+ * is no instance. */
 bool scene_bounds(const scene *scene, float minimum[3], float maximum[3]);
 
-/* The area of all triangles. */
+/* Returns the area of all triangles. */
 double scene_area(const scene *scene);
 
 #endif

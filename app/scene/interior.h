@@ -1,27 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* interior.h - whether a scene is a room or a courtyard, whose inside is what there is to see, or
- * something to look at from outside. */
+/* interior.h - whether a scene is a room or courtyard, to be seen from inside, or an object, to be
+ * seen from outside. */
 #ifndef LAMPION_SCENE_INTERIOR_H
 #define LAMPION_SCENE_INTERIOR_H
 
 #include "app/scene/grid.h"
 
-/* What is found out about a scene. */
+/* What scene_interior_find finds out. */
 typedef struct scene_interior {
-    bool inside;     /* it is to be seen from inside */
-    lmp_vec3 middle; /* of the room, or where one would be: in empty space */
-    int points;      /* of a lattice, that a room is around */
+    bool inside;     /* whether the scene is to be seen from inside */
+    lmp_vec3 middle; /* of the room or, without one, a point in empty space */
+    int points;      /* points of a lattice that have a room around them */
+    int level;       /* those of them that stand above level ground */
     float open;      /* degrees: the widest part of the room's horizon without a wall */
-    float fronts;    /* of what is seen from outside: the part that shows its front */
-    float within;    /* where `fronts` leave a doubt: what the room sees for each such part that
-                      * is seen from outside */
-    float fronts_before[4]; /* as a camera before it sees it, and by quarters of a circle on */
+    float fronts;    /* fraction of fronts in what is seen from outside */
+    float within; /* in doubt after `fronts`: cells seen from the room per cell seen from outside */
+    float fronts_before[4]; /* fronts seen from before it, and after quarter turns */
 } scene_interior;
 
-/* In doubt, the outside. */
+/* Examines a scene; in doubt it is to be seen from outside. */
 scene_interior scene_interior_find(const scene_grid *grid);
 
-/* Whether what stands there sees something in most directions above it, and below. */
+/* Returns the fraction of the upper sky that reaches what a camera before the scene sees, after
+ * `quarter` quarter turns. Unless backs are drawn, it is 0 for the inside of closed walls that are
+ * seen through their backs. */
+float scene_interior_sky(const scene_grid *grid, int quarter, bool backs_drawn);
+
+/* Whether surfaces enclose a point in most directions above and below it. */
 bool scene_interior_closes(const scene_grid *grid, lmp_vec3 point);
 
 #endif

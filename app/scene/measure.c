@@ -52,7 +52,7 @@ bool scene_bounds(const scene *s, float minimum[3], float maximum[3]) {
 
 /* --- area ------------------------------------------------------------------------------------- */
 
-/* The area of a mesh after a linear map, given by its rows. */
+/* Computes the area of a mesh under a linear map, given by its rows. */
 static double area_of(const scene *s, const scene_mesh *mesh, const double map[3][3]) {
     double sum = 0.0;
     for (uint32_t first = 0; first < mesh->index_count; first += 3) {
@@ -74,7 +74,7 @@ static double area_of(const scene *s, const scene_mesh *mesh, const double map[3
     return sum;
 }
 
-/* What lengths grow by, if all grow by the same; else 0. */
+/* Returns the factor by which all lengths grow, or 0 if they grow differently. */
 static double scale_of(const double map[3][3]) {
     double square = 0.0, products[3] = { 0.0 }, lengths[3] = { 0.0 };
     for (int k = 0; k < 3; k++)

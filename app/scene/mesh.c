@@ -1,18 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/mesh.h"
 
+#include "app/base/file_hash.h"
+#include "app/image/srgb.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* more corners at one point than this are not compared with another */
+/* groups of more corners at one point are not smoothed */
 #define SMOOTH_GROUP_MAX 256
-/* one triangle of so many may face the other way than its normals where both agree */
+/* one triangle in so many may face away from its normals where both are taken to agree */
 #define DISAGREEING 8
 
 static float dot3(const float *a, const float *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+uint16_t mesh_color_from_srgb(double stored) {
+    return stored > 0.0 ? (uint16_t)(65535.0 * image_srgb_to_linear(fmin(stored, 1.0)) + 0.5) : 0;
 }
 
 /* --- transforms ------------------------------------------------------------------------------- */
@@ -34,7 +40,7 @@ mesh_transform mesh_transform_make(const double m[16]) {
     return t;
 }
 
-/* A vector without a direction becomes zero. */
+/* Stores a vector at unit length; one without a direction becomes zero. */
 static void store_unit(const double v[3], double sign, float out[3]) {
     const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     const bool ok = length > 0.0 && isfinite(length);
@@ -68,8 +74,8 @@ void mesh_flip(mesh_draft *f) {
     }
 }
 
-/* The mesh's own unit: products of four edges neither overflow nor vanish, and no bit of a normal
- * depends on it. */
+/* Finds the mesh's unit of length: in it, products of four edges neither overflow nor vanish, and
+ * no bit of a normal depends on it. */
 static void find_unit(mesh_draft *f) {
     float size = 0.0f;
     for (int k = 0; k < 3; k++) {
@@ -97,8 +103,9 @@ static lmp_vec3 triangle_normal(const mesh_draft *f, size_t triangle) {
 
 /* --- sides ------------------------------------------------------------------------------------ */
 
-/* Lets triangles be counter-clockwise as their normals see them: in formats that cull nothing,
- * clockwise meshes are as good. Where most are so already, both say which side is the front. */
+/* Makes triangles counter-clockwise as seen along their normals: formats without culling have
+ * clockwise meshes as well. Where most triangles agree already, both tell which side is the
+ * front. */
 static void follow_normals(mesh_draft *f) {
     size_t flipped = 0;
     for (size_t i = 0; i < f->corner_count; i += 3) {
@@ -118,10 +125,10 @@ static void follow_normals(mesh_draft *f) {
 
 /* --- missing normals -------------------------------------------------------------------------- */
 
-bool mesh_split_corners(mesh_draft *f, cli_error *error) {
+bool mesh_split_corners(mesh_draft *f, base_error *error) {
     scene_vertex *vertices = malloc((f->corner_count + 1) * sizeof *vertices);
     if (!vertices)
-        return cli_fail(error, f->subject, "does not fit into memory");
+        return base_fail(error, f->subject, "does not fit into memory");
     for (size_t i = 0; i < f->corner_count; i++) {
         vertices[i] = f->vertices[f->corners[i]];
         f->corners[i] = (uint32_t)i;
@@ -143,7 +150,7 @@ static int compare_keys(const void *a, const void *b) {
     return order ? order : (x->corner > y->corner) - (x->corner < y->corner);
 }
 
-/* Sums the normals of the corners at one position that belong to one smooth surface. */
+/* Averages the normals of the corners at one position that belong to one smooth surface. */
 static void smooth_group(mesh_draft *f, const corner_key *group, size_t count,
                          const lmp_vec3 *faces) {
     for (size_t i = 0; i < count; i++) {
@@ -161,7 +168,7 @@ static void smooth_group(mesh_draft *f, const corner_key *group, size_t count,
     }
 }
 
-static bool make_normals(mesh_draft *f, cli_error *error) {
+static bool make_normals(mesh_draft *f, base_error *error) {
     corner_key *keys = malloc((f->corner_count + 1) * sizeof *keys);
     lmp_vec3 *faces = malloc((f->corner_count / 3 + 1) * sizeof *faces);
     const bool ok = keys && faces;
@@ -181,10 +188,10 @@ static bool make_normals(mesh_draft *f, cli_error *error) {
     }
     free(keys);
     free(faces);
-    return ok || cli_fail(error, f->subject, "does not fit into memory");
+    return ok || base_fail(error, f->subject, "does not fit into memory");
 }
 
-/* Zero normals among given ones take their triangle's. */
+/* Replaces zero normals by that of the triangle. */
 static void mend_normals(mesh_draft *f) {
     for (size_t i = 0; i < f->corner_count; i++) {
         scene_vertex *vertex = &f->vertices[f->corners[i]];
@@ -220,10 +227,10 @@ static void add_triangle_tangent(const mesh_draft *f, size_t triangle, lmp_vec3 
     }
 }
 
-static bool make_tangents(mesh_draft *f, cli_error *error) {
+static bool make_tangents(mesh_draft *f, base_error *error) {
     lmp_vec3 *along = calloc(2 * f->vertex_count + 1, sizeof *along);
     if (!along)
-        return cli_fail(error, f->subject, "does not fit into memory");
+        return base_fail(error, f->subject, "does not fit into memory");
     lmp_vec3 *across = along + f->vertex_count;
     for (size_t i = 0; i < f->corner_count / 3; i++)
         add_triangle_tangent(f, i, along, across);
@@ -235,7 +242,7 @@ static bool make_tangents(mesh_draft *f, cli_error *error) {
         const lmp_vec3 flat = vec_sub(raw, vec_scale(n, vec_dot(n, raw)));
         const bool usable = vec_length(flat) > 1e-4f * vec_length(raw);
         const lmp_vec3 tangent = usable ? vec_normalize(flat, vec_across(n)) : vec_across(n);
-        /* The bitangent points along rising v of an image with v up, as glTF defines it. */
+        /* the bitangent points along increasing v of an image with v up, as glTF defines it */
         if (!given)
             vertex->tangent[3] = vec_dot(vec_cross(n, tangent), across[i]) > 0.0f ? -1.0f : 1.0f;
         vec_store(tangent, vertex->tangent);
@@ -247,7 +254,7 @@ static bool make_tangents(mesh_draft *f, cli_error *error) {
 /* --- welding ---------------------------------------------------------------------------------- */
 
 /* Merges equal vertices, keeping the order of their first use. */
-static bool weld_vertices(mesh_draft *f, cli_error *error) {
+static bool weld_vertices(mesh_draft *f, base_error *error) {
     size_t buckets = 64;
     while (buckets < 2 * f->vertex_count)
         buckets *= 2;
@@ -275,20 +282,20 @@ static bool weld_vertices(mesh_draft *f, cli_error *error) {
     f->vertex_count = kept;
     free(table);
     free(new_index);
-    return ok || cli_fail(error, f->subject, "does not fit into memory");
+    return ok || base_fail(error, f->subject, "does not fit into memory");
 }
 
 /* --- into the scene --------------------------------------------------------------------------- */
 
-static bool append_draft(const mesh_draft *f, scene_builder *builder, cli_error *error) {
+static bool append_draft(const mesh_draft *f, scene_builder *builder, base_error *error) {
     const size_t first_vertex = builder_count(builder, BLOB_VERTICES);
     const size_t first_index = builder_count(builder, BLOB_INDICES);
     if (first_vertex + f->vertex_count >= UINT32_MAX || first_index + f->corner_count >= UINT32_MAX)
-        return cli_fail(error, f->subject, "has more than 4 billion vertices");
+        return base_fail(error, f->subject, "has more than 4 billion vertices");
     scene_vertex *vertices = builder_append(builder, BLOB_VERTICES, f->vertex_count);
     uint32_t *indices = builder_append(builder, BLOB_INDICES, f->corner_count);
     if (!vertices || !indices)
-        return cli_fail(error, f->subject, "does not fit into memory");
+        return base_fail(error, f->subject, "does not fit into memory");
     memcpy(vertices, f->vertices, f->vertex_count * sizeof *vertices);
     for (size_t i = 0; i < f->corner_count; i++)
         indices[i] = (uint32_t)first_vertex + f->corners[i];
@@ -296,7 +303,7 @@ static bool append_draft(const mesh_draft *f, scene_builder *builder, cli_error 
     return true;
 }
 
-bool mesh_add(mesh_draft *f, scene_builder *builder, cli_error *error) {
+bool mesh_add(mesh_draft *f, scene_builder *builder, base_error *error) {
     bool ok = true;
     if (f->corner_count == 0)
         return true;
@@ -304,8 +311,7 @@ bool mesh_add(mesh_draft *f, scene_builder *builder, cli_error *error) {
     if (f->has_normals && f->unsided)
         follow_normals(f);
     if (!f->has_normals)
-        ok =
-            mesh_split_corners(f, error) && make_normals(f, error); /* faces that meet may differ */
+        ok = mesh_split_corners(f, error) && make_normals(f, error); /* adjacent faces may differ */
     if (ok)
         mend_normals(f);
     return ok && (!f->weld || weld_vertices(f, error)) && make_tangents(f, error) &&

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* name.h - names of a scene's parts as they are kept: whole UTF-8, no control characters. */
+/* name.h - names of a scene's parts: whole UTF-8 characters, no control characters. */
 #ifndef LAMPION_SCENE_NAME_H
 #define LAMPION_SCENE_NAME_H
 
-#include "app/cli/cli.h"
+#include "app/base/error.h"
 
 #define SCENE_NAME_SIZE 64 /* bytes of a name, NUL included, valid UTF-8 */
 
-/* Copies a name truncated to whole characters; what is not UTF-8 or is a control character becomes
- * '?'. */
+/* Copies a name, truncated to whole characters; bytes that are not UTF-8 and control characters
+ * become '?'. */
 void scene_clean_name(char name[SCENE_NAME_SIZE], const char *text);
 
-/* Finds the one of `count` things of a kind, the first named `first`, each `stride` bytes after the
- * one before, that is wanted by its name or its number from 0; else an error that lists all. */
+/* Finds the one of `count` things that `wanted` gives by name or by number from 0, or fails with an
+ * error that lists all. `first` is the name of the first thing; names are `stride` bytes apart. */
 bool scene_find_name(const char *subject, const char *kind, const char *wanted, const char *first,
-                     size_t stride, size_t count, size_t *index, cli_error *error);
+                     size_t stride, size_t count, size_t *index, base_error *error);
 
 #endif

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define METAL_SPECULAR_MIN        0.25f /* the specular color of a metal, at least, */
-#define METAL_SPECULAR_TO_DIFFUSE 2.0f  /* and at least this many times the diffuse one */
+#define METAL_SPECULAR_MIN        0.25f /* least specular color of a metal, absolute */
+#define METAL_SPECULAR_TO_DIFFUSE 2.0f  /* and least multiple of the diffuse color */
 
 static float brightest(const float color[3]) {
     return fmaxf(color[0], fmaxf(color[1], color[2]));
@@ -60,6 +60,6 @@ bool phong_tell_invisible(scene_builder *builder, const char *told) {
             materials[i].flags &= ~(uint32_t)SCENE_ALPHA_BLEND;
         }
     free(used);
-    builder_left_out(builder, all ? "opacity 0 of all there is" : told, "material", invisible);
+    builder_unsupported(builder, all ? "opacity 0 of all there is" : told, "material", invisible);
     return true;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* phong.h - materials of diffuse and Phong lobes as metallic-roughness. */
+/* phong.h - materials with diffuse and Phong lobes as metallic-roughness. */
 #ifndef LAMPION_SCENE_PHONG_H
 #define LAMPION_SCENE_PHONG_H
 
@@ -10,14 +10,15 @@ typedef struct phong {
     float exponent, opacity;
 } phong;
 
-/* The diffuse color is the base color; the exponent n becomes the roughness whose half
- * vectors have it, n = 2/α² - 2 with α = roughness²; without a specular color it is matte. One much
- * brighter than the diffuse color means metal of that color. Opacity below 1 blends. */
+/* Converts a material: the diffuse color becomes the base color, and the exponent n the roughness
+ * whose half vectors have the same exponent, n = 2/α² - 2 with α = roughness²; without a specular
+ * color the material is matte. A specular color much brighter than the diffuse one means metal.
+ * Opacity below 1 blends. */
 void phong_apply(const phong *from, scene_material *to);
 
-/* Tells by `told` of the materials of meshes whose opacity is 0. Where all would be invisible,
- * opacity means something else than it should: they are opaque, and that is told. False without
- * memory. */
+/* Reports, in the words `told`, materials of meshes whose opacity is 0. Where all materials would
+ * be invisible, the file means something else by opacity: they become opaque, and that is reported.
+ * Returns false if memory ran out. */
 bool phong_tell_invisible(scene_builder *builder, const char *told);
 
 #endif

@@ -12,7 +12,7 @@ static inline uint64_t random_bits(uint64_t *state) {
     return x ^ x >> 31;
 }
 
-/* Uniform in [0, 1): 24 bits, exact in float. */
+/* Returns a number uniform in [0, 1): 24 bits, exact in float. */
 static inline float random_unit(uint64_t *state) {
     return (float)(random_bits(state) >> 40) * 0x1p-24f;
 }

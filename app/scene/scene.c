@@ -6,12 +6,12 @@
 #include <string.h>
 #include <sys/mman.h>
 
-/* The plural's ending of a noun of so many bytes: meshes, but files. */
+/* Returns the ending of a noun's plural: "es" as in meshes, or "s" as in files. */
 static const char *ending_of(const char *noun, size_t length) {
     return length > 0 && noun[length - 1] == 'h' ? "es" : "s";
 }
 
-void scene_left_out_text(const scene_left_out *item, char *text, size_t size) {
+void scene_unsupported_text(const scene_unsupported *item, char *text, size_t size) {
     const char *noun = item->noun,
                *after = strstr(noun, " outside "); /* files outside the folder */
     const size_t length = after ? (size_t)(after - noun) : strlen(noun);
@@ -46,6 +46,10 @@ bool scene_has_sheen(const scene_material *m) {
     return m->sheen_color[0] > 0 || m->sheen_color[1] > 0 || m->sheen_color[2] > 0;
 }
 
+bool scene_is_translucent(const scene_material *m) {
+    return m->transmission > 0 || m->flags & SCENE_LEAF;
+}
+
 void scene_free(scene *s) {
     if (s->mapped)
         munmap(s->block, s->block_size);
@@ -54,7 +58,7 @@ void scene_free(scene *s) {
     if (s->decoded)
         munmap(s->decoded, s->decoded_size);
     free(s->own_materials);
-    free(s->own_left_out);
+    free(s->own_unsupported);
     free(s->lights);
     free(s->frame);
     memset(s, 0, sizeof *s);

@@ -7,27 +7,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OPEN_MOST  0.07 /* of its edges that a body may lack a triangle at: cracks, not a side */
+#define OPEN_MOST  0.07 /* of the edges of a closed body that may be open: cracks */
 #define PAIRS_MOST ((size_t)1 << 22)
 #define NONE       UINT32_MAX
 
-/* What hangs together by the positions of its vertices. */
+/* A connected component of the meshes; vertices at the same position are connected. */
 typedef struct body {
-    double middle[3], inside; /* inside: six times what it encloses; below 0: clockwise */
+    double middle[3], inside; /* inside: six times its signed volume; below 0 if it is clockwise */
     float low[3], high[3];
-    size_t triangles, open; /* edges without a triangle at their other side */
-    uint32_t mesh;          /* the first one's */
+    size_t triangles, open; /* open: edges without a triangle on the other side */
+    uint32_t mesh;          /* of its first triangle */
     bool flips;
 } body;
 
 typedef struct sides {
-    scene_vertex *vertices; /* those of the meshes, `first` the lowest of their numbers */
+    scene_vertex *vertices; /* of the meshes, from `first`, the lowest of their numbers */
     uint32_t first, vertex_count;
     uint32_t *indices;
     const scene_mesh *all;
     const uint32_t *meshes;
     size_t mesh_count, corner_count;
-    uint32_t *joined; /* of each vertex another of its body; then the body itself */
+    uint32_t *same;   /* per vertex the first one at its position */
+    uint32_t *joined; /* per vertex another of its body (union-find), then the body */
     body *bodies;
     size_t body_count;
 } sides;
@@ -37,7 +38,7 @@ typedef struct sides {
 static uint64_t hash_of(const float position[3]) {
     uint64_t hash = 0;
     for (int k = 0; k < 3; k++) {
-        const float x = position[k] + 0.0f; /* of both zeros one */
+        const float x = position[k] + 0.0f; /* makes both zeros equal */
         uint32_t bits;
         memcpy(&bits, &x, sizeof bits);
         hash += bits;
@@ -58,7 +59,7 @@ static uint32_t leader_of(uint32_t *joined, uint32_t vertex) {
     return vertex;
 }
 
-/* The lowest number leads. */
+/* Joins two sets; the lowest number becomes the leader. */
 static void join(uint32_t *joined, uint32_t a, uint32_t b) {
     a = leader_of(joined, a);
     b = leader_of(joined, b);
@@ -72,8 +73,8 @@ static size_t slots_for(size_t count) {
     return slots;
 }
 
-/* Gives each vertex the first one at its position. */
-static bool join_positions(const sides *s, uint32_t *same) {
+/* Finds for each vertex the first one at its position. */
+static bool join_positions(sides *s) {
     const size_t slots = slots_for(s->vertex_count);
     uint32_t *const table = malloc(slots * sizeof *table);
     if (!table)
@@ -86,7 +87,7 @@ static bool join_positions(const sides *s, uint32_t *same) {
             slot = (slot + 1) & (slots - 1);
         if (table[slot] == NONE)
             table[slot] = i;
-        same[i] = table[slot];
+        s->same[i] = table[slot];
     }
     free(table);
     return true;
@@ -102,9 +103,9 @@ static uint32_t corner_count(const sides *s, size_t mesh) {
 
 /* --- bodies ----------------------------------------------------------------------------------- */
 
-/* Numbers the bodies: `joined` becomes the number of each vertex's. */
-static bool number_bodies(sides *s, const uint32_t *same) {
-    memcpy(s->joined, same, s->vertex_count * sizeof *same);
+/* Numbers the bodies: `joined` becomes the number of each vertex's body. */
+static bool number_bodies(sides *s) {
+    memcpy(s->joined, s->same, s->vertex_count * sizeof *s->same);
     for (size_t m = 0; m < s->mesh_count; m++)
         for (uint32_t i = 0; i < corner_count(s, m); i += 3) {
             const uint32_t *const c = corners_of(s, m) + i;
@@ -163,12 +164,12 @@ static void measure_insides(sides *s) {
 /* --- open edges ------------------------------------------------------------------------------- */
 
 typedef struct edge {
-    uint32_t low, high; /* NONE: none */
-    int32_t ways;       /* from low to high, less those from high to low */
+    uint32_t low, high; /* vertices; NONE: an empty slot */
+    int32_t ways;       /* uses from low to high, minus those from high to low */
 } edge;
 
-/* Counts the edges that are not met as often one way as the other. */
-static bool count_open_edges(sides *s, const uint32_t *same) {
+/* Counts for each body the edges that are not used equally often in both directions. */
+static bool count_open_edges(sides *s) {
     const size_t slots = slots_for(s->corner_count);
     edge *const table = malloc(slots * sizeof *table);
     if (!table)
@@ -177,7 +178,8 @@ static bool count_open_edges(sides *s, const uint32_t *same) {
     for (size_t m = 0; m < s->mesh_count; m++)
         for (uint32_t i = 0; i < corner_count(s, m); i++) {
             const uint32_t *const c = corners_of(s, m) + i / 3 * 3;
-            const uint32_t from = same[c[i % 3] - s->first], to = same[c[(i + 1) % 3] - s->first];
+            const uint32_t from = s->same[c[i % 3] - s->first];
+            const uint32_t to = s->same[c[(i + 1) % 3] - s->first];
             if (from == to)
                 continue;
             const uint32_t low = from < to ? from : to, high = from < to ? to : from;
@@ -209,7 +211,7 @@ static bool holds(const body *outer, const body *inner) {
     return true;
 }
 
-/* Whether a clockwise body is what it seems: a room with something in it, or a hollow. */
+/* Whether a clockwise body is intended: a room with something in it, or a hollow. */
 static bool is_meant(const sides *s, const body *b) {
     for (size_t i = 0; i < s->body_count; i++) {
         const body *const other = &s->bodies[i];
@@ -252,7 +254,7 @@ static void flip(sides *s) {
         }
 }
 
-/* The vertices that the meshes have, from the lowest of their numbers to the highest. */
+/* Finds the range of vertices that the meshes use. */
 static void find_vertices(sides *s, scene_builder *builder) {
     uint32_t most = 0;
     s->first = NONE;
@@ -270,31 +272,53 @@ static void find_vertices(sides *s, scene_builder *builder) {
     s->vertices = (scene_vertex *)builder_items(builder, BLOB_VERTICES) + s->first;
 }
 
-bool sides_turn_outwards(scene_builder *builder, const uint32_t *meshes, size_t count) {
-    sides s = { .indices = builder_items(builder, BLOB_INDICES),
-                .all = builder_items(builder, BLOB_MESHES),
-                .meshes = meshes,
-                .mesh_count = count };
-    find_vertices(&s, builder);
-    if (s.vertex_count == 0)
+/* Finds the bodies; where the meshes have no vertices, there are none. sides_free is due in any
+ * case. */
+static bool find_bodies(sides *s, scene_builder *builder, const uint32_t *meshes, size_t count) {
+    *s = (sides) { .indices = builder_items(builder, BLOB_INDICES),
+                   .all = builder_items(builder, BLOB_MESHES),
+                   .meshes = meshes,
+                   .mesh_count = count };
+    find_vertices(s, builder);
+    if (s->vertex_count == 0)
         return true;
-    uint32_t *const same = malloc(s.vertex_count * sizeof *same);
-    s.joined = malloc(s.vertex_count * sizeof *s.joined);
-    bool ok = same && s.joined && join_positions(&s, same) && number_bodies(&s, same);
+    s->same = malloc(s->vertex_count * sizeof *s->same);
+    s->joined = malloc(s->vertex_count * sizeof *s->joined);
+    if (!s->same || !s->joined || !join_positions(s) || !number_bodies(s))
+        return false;
+    measure_bounds(s);
+    measure_insides(s);
+    return true;
+}
+
+static void sides_free(sides *s) {
+    free(s->same);
+    free(s->joined);
+    free(s->bodies);
+}
+
+bool sides_turn_outwards(scene_builder *builder, const uint32_t *meshes, size_t count) {
+    sides s;
+    bool ok = find_bodies(&s, builder, meshes, count);
     size_t clockwise = 0;
-    if (ok) {
-        measure_bounds(&s);
-        measure_insides(&s);
-    }
     for (size_t i = 0; ok && i < s.body_count; i++)
         clockwise += s.bodies[i].inside < 0.0;
-    ok = ok && (clockwise == 0 || count_open_edges(&s, same));
+    ok = ok && (clockwise == 0 || count_open_edges(&s));
     if (ok && clockwise > 0) {
         decide(&s, clockwise);
         flip(&s);
     }
-    free(same);
-    free(s.joined);
-    free(s.bodies);
+    sides_free(&s);
+    return ok;
+}
+
+bool sides_find(scene_builder *builder, uint32_t mesh, sides_of *found) {
+    sides s;
+    const bool ok = find_bodies(&s, builder, &mesh, 1) && count_open_edges(&s);
+    for (uint32_t i = 0; ok && i < corner_count(&s, 0); i += 3) {
+        const body *const b = &s.bodies[s.joined[corners_of(&s, 0)[i] - s.first]];
+        found[i / 3] = !is_closed(b) ? SIDES_OPEN : b->inside < 0.0 ? SIDES_INWARD : SIDES_OUTWARD;
+    }
+    sides_free(&s);
     return ok;
 }

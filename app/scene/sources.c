@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/sources.h"
 
-#include "app/sandbox/sandbox.h"
+#include "app/base/file.h"
+#include "app/base/sandbox.h"
 #include "app/scene/escape.h"
 
 #include <dirent.h>
@@ -14,7 +15,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Decodes percent-escapes and turns backslashes into slashes; false if it does not fit. */
+/* Decodes percent-escapes and turns backslashes into slashes; returns false if the path does not
+ * fit. */
 static bool decode_escapes(const char *uri, char *path, size_t size) {
     size_t used = 0;
     for (const char *c = uri; *c;) {
@@ -59,7 +61,7 @@ static bool has_parent_component(const char *path) {
     return false;
 }
 
-/* Takes "." and ".." out of a name that stays inside (RFC 3986, 5.2.4), and doubled slashes, so
+/* Removes "." and ".." from a path that stays inside (RFC 3986, 5.2.4), and doubled slashes, so
  * that a file has few names. */
 static void remove_dots(char *path) {
     char *out = path;
@@ -79,7 +81,7 @@ static void remove_dots(char *path) {
     *out = 0;
 }
 
-/* A source's path of what a scene names. */
+/* Converts a name in a scene to the path of a source. */
 static bool path_of(const char *uri, char *path, size_t size) {
     if (!decode_escapes(uri, path, size))
         return false;
@@ -88,12 +90,12 @@ static bool path_of(const char *uri, char *path, size_t size) {
     return path[0] != 0;
 }
 
-/* Many absent names in large folders would take minutes: names that differ in case alone are looked
- * for among so many in all. */
+/* How many directory entries are compared in all with names that may differ in case: many absent
+ * names in large folders would take minutes. */
 #define LISTED_MAX 4000000
 
-/* Replaces each part of the name behind `folder` that is not there by one that differs in case
- * alone, if there is one: files that come from where case says nothing. */
+/* Replaces each part of the path behind `folder` that does not exist by one that differs in case
+ * alone, if there is one: some files come from systems that ignore case. */
 static void match_case(source_set *set, char *full) {
     for (char *part = full + strlen(set->folder), *end; *part; part = end) {
         part += *part == '/';
@@ -118,25 +120,25 @@ static void match_case(source_set *set, char *full) {
     }
 }
 
-static bool fail_absent(const source_set *set, const char *name, cli_error *error) {
-    return cli_fail(error, set->subject, "refers to \"%.200s\", which does not exist", name);
+static bool fail_absent(const source_set *set, const char *name, base_error *error) {
+    return base_fail(error, set->subject, "refers to \"%.200s\", which does not exist", name);
 }
 
-static bool fail_outside(const source_set *set, const char *name, cli_error *error) {
-    return cli_fail(
+static bool fail_outside(const source_set *set, const char *name, base_error *error) {
+    return base_fail(
         error, set->subject,
         "refers to \"%.200s\", which is outside its folder (only files inside are read)", name);
 }
 
-/* `full` receives where the file of that name is looked for. */
+/* Writes to `full` where the file of that name is looked for. */
 static bool resolve(const source_set *set, const char *name, char full[PATH_MAX],
-                    cli_error *error) {
-    /* What sources_read asks for has no dots; what another reader asks for may have them. */
+                    base_error *error) {
+    /* names from sources_read have no dots; those from other readers may have them */
     if (leads_outside(name) || has_parent_component(name))
         return fail_outside(set, name, error);
     const int length = snprintf(full, PATH_MAX, "%s/%s", set->folder, name);
     return (length >= 0 && length < PATH_MAX) ||
-           cli_fail(error, set->subject, "refers to a file by too long a name");
+           base_fail(error, set->subject, "refers to a file by too long a name");
 }
 
 static bool is_inside(const char *folder, const char *path) {
@@ -158,17 +160,18 @@ static bool has_link(const source_set *set, char *full) {
     return found;
 }
 
-/* The same words whether or not there is something where the link leads: that is not told. */
-static bool fail_link(const source_set *set, const char *name, cli_error *error) {
-    return cli_fail(error, set->subject,
-                    "refers to \"%.200s\", a link that leaves its folder or leads nowhere (only "
-                    "files inside are read)",
-                    name);
+/* Fails with the same message whether or not the link leads to something, so as not to reveal
+ * that. */
+static bool fail_link(const source_set *set, const char *name, base_error *error) {
+    return base_fail(error, set->subject,
+                     "refers to \"%.200s\", a link that leaves its folder or leads nowhere (only "
+                     "files inside are read)",
+                     name);
 }
 
-/* The file at `full`, links followed, as a descriptor that reads nothing: what is asked of it is
- * then true of what is opened by it, whatever the names come to mean. */
-static int find_file(source_set *set, const char *name, char full[PATH_MAX], cli_error *error) {
+/* Opens the file at `full`, links followed, as a descriptor without read access: what is checked
+ * through it holds for what is opened through it, however the names may change. */
+static int find_file(source_set *set, const char *name, char full[PATH_MAX], base_error *error) {
     int found = open(full, O_PATH | O_CLOEXEC), reason = errno;
     if (found < 0 && reason == ENOENT) {
         match_case(set, full);
@@ -180,21 +183,21 @@ static int find_file(source_set *set, const char *name, char full[PATH_MAX], cli
     else if (found < 0 && reason == ENOENT)
         fail_absent(set, name, error);
     else if (found < 0)
-        cli_fail(error, set->subject, "refers to \"%.200s\", which cannot be opened", name);
+        base_fail(error, set->subject, "refers to \"%.200s\", which cannot be opened", name);
     return found;
 }
 
-static bool fail_file(const source_set *set, const char *name, const cli_error *reason,
-                      cli_error *error) {
+static bool fail_file(const source_set *set, const char *name, const base_error *reason,
+                      base_error *error) {
     const char *what = strstr(reason->text, ": ");
-    return cli_fail(error, set->subject, "refers to \"%.200s\", which %s", name,
-                    what ? what + 2 : "cannot be read");
+    return base_fail(error, set->subject, "refers to \"%.200s\", which %s", name,
+                     what ? what + 2 : "cannot be read");
 }
 
-/* Opens what has been found, if that lies inside the folder. */
-static int open_found(const source_set *set, const char *name, int found, cli_error *error) {
+/* Opens the found file for reading if it lies inside the folder. */
+static int open_found(const source_set *set, const char *name, int found, base_error *error) {
     char link[40], real[PATH_MAX];
-    cli_error reason;
+    base_error reason;
     snprintf(link, sizeof link, "/proc/self/fd/%d", found);
     const ssize_t length = readlink(link, real, sizeof real - 1);
     real[length > 0 ? length : 0] = 0;
@@ -208,7 +211,7 @@ static int open_found(const source_set *set, const char *name, int found, cli_er
     return fd;
 }
 
-int sources_open(source_set *set, const char *name, cli_error *error) {
+int sources_open(source_set *set, const char *name, base_error *error) {
     char full[PATH_MAX];
     if (!resolve(set, name, full, error))
         return -1;
@@ -219,7 +222,7 @@ int sources_open(source_set *set, const char *name, cli_error *error) {
     return fd;
 }
 
-/* The one that has been read of the same file, by whatever name; NULL if there is none. */
+/* Returns the source that was already read from the same file under any name, or NULL. */
 static const source *find_same(const source_set *set, int file) {
     for (size_t i = 0; file >= 0 && i < set->count; i++)
         if (set->items[i].file == file)
@@ -227,8 +230,8 @@ static const source *find_same(const source_set *set, int file) {
     return NULL;
 }
 
-static bool read_source(source_set *set, source *item, cli_error *error) {
-    cli_error reason;
+static bool read_source(source_set *set, source *item, base_error *error) {
+    base_error reason;
     item->file = -1;
     const int fd = set->sandboxed ? sandbox_open(item->path, &item->file, error)
                                   : sources_open(set, item->path, error);
@@ -248,16 +251,16 @@ static bool read_source(source_set *set, source *item, cli_error *error) {
     return ok || fail_file(set, item->path, &reason, error);
 }
 
-static bool read_path(source_set *set, const char *path, const source **found, cli_error *error) {
+static bool read_path(source_set *set, const char *path, const source **found, base_error *error) {
     for (size_t i = 0; i < set->count; i++)
         if (strcmp(set->items[i].path, path) == 0) {
             *found = &set->items[i];
             return true;
         }
     if (set->count == BLOB_SOURCES_MAX)
-        return cli_fail(error, set->subject, "refers to more than %d files", BLOB_SOURCES_MAX);
+        return base_fail(error, set->subject, "refers to more than %d files", BLOB_SOURCES_MAX);
     if (!set->items && !(set->items = calloc(BLOB_SOURCES_MAX, sizeof *set->items)))
-        return cli_fail(error, set->subject, "does not fit into memory");
+        return base_fail(error, set->subject, "does not fit into memory");
     source *item = &set->items[set->count];
     strcpy(item->path, path);
     if (!read_source(set, item, error))
@@ -267,11 +270,11 @@ static bool read_path(source_set *set, const char *path, const source **found, c
     return true;
 }
 
-bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error) {
+bool sources_read(source_set *set, const char *uri, const source **found, base_error *error) {
     char path[sizeof((source *)0)->path];
     if (!path_of(uri, path, sizeof path))
-        return cli_fail(error, set->subject, "refers to a file by a name that is none");
-    /* Said here, where the name is still as somebody wrote it. */
+        return base_fail(error, set->subject, "refers to a file by a name that is none");
+    /* reported here, where the name is still as the file has it */
     return leads_outside(path) ? fail_outside(set, uri, error) : read_path(set, path, found, error);
 }
 
@@ -283,7 +286,7 @@ const char *const source_state_nouns[SOURCE_STATES] = {
     [SOURCE_UNREADABLE] = "unreadable file",
 };
 
-/* What is asked for again is not looked for again; without memory it is. */
+/* Remembers an absent file so that it is not looked for again; without memory it is. */
 static void remember(source_set *set, const char *path, source_state state) {
     if (!set->absent) {
         set->absent = calloc(BLOB_SOURCES_MAX, sizeof *set->absent);
@@ -303,9 +306,9 @@ static source_state recall(const source_set *set, const char *path) {
 }
 
 bool sources_read_optional(source_set *set, const char *uri, const source **found,
-                           source_state *state, cli_error *error) {
+                           source_state *state, base_error *error) {
     char path[sizeof *set->absent];
-    cli_error reason, known;
+    base_error reason, known;
     *found = NULL;
     if (!path_of(uri, path, sizeof path)) {
         *state = SOURCE_UNREADABLE;
@@ -314,11 +317,11 @@ bool sources_read_optional(source_set *set, const char *uri, const source **foun
     *state = leads_outside(path) ? SOURCE_OUTSIDE : recall(set, path);
     if (*state != SOURCE_READ || read_path(set, path, found, &reason))
         return true;
-    if (cli_is_out_of_memory(&reason)) {
+    if (base_is_out_of_memory(&reason)) {
         *error = reason;
         return false;
     }
-    /* In the sandbox this line is all that is known of the parent's failure. */
+    /* in the sandbox this message is all that is known of the parent's failure */
     fail_absent(set, path, &known);
     *state = strcmp(reason.text, known.text) == 0 ? SOURCE_MISSING : SOURCE_UNREADABLE;
     remember(set, path, *state);

@@ -22,8 +22,8 @@ static triangle triangle_at(const scene *world, size_t instance, uint32_t number
 
 /* --- along an axis ---------------------------------------------------------------------------- */
 
-/* Where the line through a point along an axis meets the triangle, from the point; whether the
- * triangle shows its front to it. */
+/* Finds where the line through a point along an axis meets the triangle, as a distance from the
+ * point, and whether the triangle shows its front to the point. */
 static bool meets(const triangle *t, lmp_vec3 point, int axis, float *distance, bool *front) {
     const float from[3] = { point.x, point.y, point.z };
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
@@ -55,7 +55,8 @@ static float to_segment2(lmp_vec3 p, lmp_vec3 a, lmp_vec3 b) {
     return vec_dot(miss, miss);
 }
 
-/* Squared, of a point to the triangle: to its plane if it lies over it, else to its sides. */
+/* Returns the squared distance from a point to the triangle: to its plane if the point lies over
+ * it, else to its sides. */
 static float distance2(const triangle *t, lmp_vec3 p) {
     const lmp_vec3 a = vec_load(t->corner[0]), b = vec_load(t->corner[1]),
                    c = vec_load(t->corner[2]);
@@ -94,7 +95,7 @@ static int by_x(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* The first ball whose center is not below x. */
+/* Returns the first ball whose center is not below x; balls are sorted. */
 static size_t first_from(const space_ball *balls, size_t count, float x) {
     size_t low = 0;
     while (low < count) {
@@ -107,7 +108,7 @@ static size_t first_from(const space_ball *balls, size_t count, float x) {
     return low;
 }
 
-/* Whether a ball reaches into the box, or is above or below it. */
+/* Whether a ball reaches into the box, or lies above or below it. */
 static bool may_meet(const float lo[3], const float hi[3], const space_ball *ball) {
     const float r = ball->radius;
     return lo[0] <= ball->center.x + r && hi[0] >= ball->center.x - r &&

@@ -7,10 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A format, and the most pixels that honest files of it have: so many for each byte, and so many
- * besides. A bit each under deflate, a bit for each block of 64, runs of 128, a bit each; WebP
- * describes a flat image of any size by some thirty bytes. The decoders make up what a file of
- * fewer bytes lacks. */
+/* A format and the most pixels that plausible files of it have, per byte and in addition: a bit per
+ * pixel under deflate, a bit per block of 64, runs of 128, a bit per pixel; WebP describes a
+ * uniform image of any size in some thirty bytes. Decoders invent what a shorter file lacks. */
 typedef struct format_row {
     texture_format format;
     const texels_decoder *decoder;
@@ -19,7 +18,7 @@ typedef struct format_row {
 
 static const format_row *format_of(const unsigned char *bytes, size_t size,
                                    texture_format formats) {
-    /* TGA is last, for it begins without a mark. */
+    /* TGA is last because it has no signature. */
     static const format_row rows[] = { { TEXTURE_PNG, &texels_png, 8 * 1032, 0 },
                                        { TEXTURE_JPEG, &texels_jpeg, 512, 0 },
                                        { TEXTURE_WEBP, &texels_webp, 8 * 1032, 4096 * 4096 },
@@ -32,19 +31,19 @@ static const format_row *format_of(const unsigned char *bytes, size_t size,
 }
 
 static bool fail_decoding(const char *subject, const char *name, const texels_reason *reason,
-                          cli_error *error) {
-    return cli_fail(error, subject, "has a texture \"%.200s\" that cannot be decoded: %s", name,
-                    reason->text);
+                          base_error *error) {
+    return base_fail(error, subject, "has a texture \"%.200s\" that cannot be decoded: %s", name,
+                     reason->text);
 }
 
 static bool check_size(const format_row *format, size_t size, int width, int height,
-                       const char *subject, const char *name, cli_error *error) {
+                       const char *subject, const char *name, base_error *error) {
     if (width < 1 || height < 1 || width > TEXTURE_SIDE_MAX || height > TEXTURE_SIDE_MAX)
-        return cli_fail(error, subject,
-                        "has a texture \"%.200s\" of %d x %d pixels (at most %d x %d)", name, width,
-                        height, TEXTURE_SIDE_MAX, TEXTURE_SIDE_MAX);
+        return base_fail(error, subject,
+                         "has a texture \"%.200s\" of %d x %d pixels (at most %d x %d)", name,
+                         width, height, TEXTURE_SIDE_MAX, TEXTURE_SIDE_MAX);
     if ((size_t)width * (size_t)height > size * format->pixels_a_byte + format->pixels_besides)
-        return cli_fail(
+        return base_fail(
             error, subject,
             "has a texture \"%.200s\" of %d x %d pixels in %zu bytes (is it truncated?)", name,
             width, height, size);
@@ -52,13 +51,14 @@ static bool check_size(const format_row *format, size_t size, int width, int hei
 }
 
 static bool fail_format(texture_format formats, const char *subject, const char *name,
-                        cli_error *error) {
-    return cli_fail(error, subject, "has a texture \"%.200s\" that is not a %s", name,
-                    formats == TEXTURE_GLTF ? "PNG, JPEG or WebP" : "PNG, JPEG, WebP, TGA or BMP");
+                        base_error *error) {
+    return base_fail(error, subject, "has a texture \"%.200s\" that is not a %s", name,
+                     formats == TEXTURE_GLTF ? "PNG, JPEG or WebP" : "PNG, JPEG, WebP, TGA or BMP");
 }
 
 bool texture_keep(scene_builder *builder, const void *data, size_t size, texture_format formats,
-                  const char *subject, const char *name, scene_texture *texture, cli_error *error) {
+                  const char *subject, const char *name, scene_texture *texture,
+                  base_error *error) {
     const format_row *const format = format_of(data, size, formats);
     texels_reason reason;
     int width, height;
@@ -72,7 +72,7 @@ bool texture_keep(scene_builder *builder, const void *data, size_t size, texture
     scene_image *image = builder_append(builder, BLOB_IMAGES, 1);
     unsigned char *encoded = image ? builder_append(builder, BLOB_ENCODED, size) : NULL;
     if (!encoded)
-        return cli_fail(error, subject, "has textures that do not fit into memory");
+        return base_fail(error, subject, "has textures that do not fit into memory");
     memcpy(encoded, data, size);
     scene_clean_name(image->name, name);
     image->width = (uint32_t)width;
@@ -92,7 +92,7 @@ uint64_t texture_texels_end(const scene_image *image) {
 }
 
 bool texture_decode(const scene_image *image, const unsigned char *encoded, unsigned char *texels,
-                    const char *subject, cli_error *error) {
+                    const char *subject, base_error *error) {
     const unsigned char *bytes = encoded + image->first_byte;
     const size_t size = image->size;
     const texture_format formats = (texture_format)image->formats;
@@ -118,7 +118,7 @@ void texture_forget(scene_material *materials, size_t count, const scene_texture
         }
 }
 
-bool texture_decode_all(scene_builder *builder, const char *subject, cli_error *error) {
+bool texture_decode_all(scene_builder *builder, const char *subject, base_error *error) {
     const scene_image *images = builder_items(builder, BLOB_IMAGES);
     const unsigned char *encoded = builder_items(builder, BLOB_ENCODED);
     for (size_t i = 0; i < builder_count(builder, BLOB_IMAGES); i++) {
@@ -126,16 +126,16 @@ bool texture_decode_all(scene_builder *builder, const char *subject, cli_error *
         const size_t more = (size_t)texture_texels_end(&images[i]) - before;
         unsigned char *texels = builder_append(builder, BLOB_TEXELS, more);
         if (!texels)
-            return cli_fail(error, subject, "has textures that do not fit into memory");
+            return base_fail(error, subject, "has textures that do not fit into memory");
         if (texture_decode(&images[i], encoded, texels + images[i].first_texel - before, subject,
                            error))
             continue;
-        if (cli_is_out_of_memory(error))
+        if (base_is_out_of_memory(error))
             return false;
         texture_forget(builder_items(builder, BLOB_MATERIALS),
                        builder_count(builder, BLOB_MATERIALS),
                        builder_items(builder, BLOB_TEXTURES), &images[i]);
-        builder_left_out(builder, images[i].name, TEXTURE_UNDECODABLE, 1);
+        builder_unsupported(builder, images[i].name, TEXTURE_UNDECODABLE, 1);
     }
     builder->arrays[BLOB_IMAGES].count = builder->arrays[BLOB_ENCODED].count = 0;
     return true;
@@ -149,7 +149,7 @@ struct texture_image {
 
 bool texture_keep_once(texture_images *images, const void *data, size_t size,
                        texture_format formats, const char *subject, const char *name,
-                       scene_texture *texture, cli_error *error) {
+                       scene_texture *texture, base_error *error) {
     for (size_t i = 0; i < images->count; i++) {
         const struct texture_image *known = &images->items[i];
         if (known->data == data && known->size == size) {
@@ -161,12 +161,12 @@ bool texture_keep_once(texture_images *images, const void *data, size_t size,
     }
     struct texture_image *items = realloc(images->items, (images->count + 1) * sizeof *items);
     if (!items)
-        return cli_fail(error, subject, "has textures that do not fit into memory");
+        return base_fail(error, subject, "has textures that do not fit into memory");
     images->items = items;
-    cli_error reason;
+    base_error reason;
     if (!texture_keep(images->builder, data, size, formats, subject, name, texture, &reason)) {
-        if (cli_is_out_of_memory(&reason))
-            return cli_fail(error, NULL, "%s", reason.text);
+        if (base_is_out_of_memory(&reason))
+            return base_fail(error, NULL, "%s", reason.text);
         texture->width = texture->height = 0;
     }
     items[images->count++] = (struct texture_image) { data, size, *texture };

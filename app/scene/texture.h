@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* texture.h - images on their way into a scene, which keeps them as they are, and their decoding.
- */
+/* texture.h - images on their way into a scene, which stores them encoded, and their decoding. */
 #ifndef LAMPION_SCENE_TEXTURE_H
 #define LAMPION_SCENE_TEXTURE_H
 
@@ -8,7 +7,7 @@
 
 #define TEXTURE_SIDE_MAX 16384
 
-/* Formats of images, as bits: what a kind of scene file may hold. */
+/* Formats of images, as bits, for the set that a kind of scene file may contain. */
 typedef enum texture_format {
     TEXTURE_PNG = 1,
     TEXTURE_JPEG = 2,
@@ -19,45 +18,46 @@ typedef enum texture_format {
     TEXTURE_ANY = TEXTURE_GLTF | TEXTURE_TGA | TEXTURE_BMP,
 } texture_format;
 
-/* Images that a builder has. Zero-initialize but for the builder;
- * free() the items. */
+/* The images of a builder. Zero-initialize all but the builder; free() the items. */
 typedef struct texture_images {
     scene_builder *builder;
     struct texture_image *items;
     size_t count;
 } texture_images;
 
-/* Appends an image of one of `formats` as it is, its size measured; *texture gets that, and where
- * its texels will be. `subject` and `name` are for messages. */
+/* Appends an encoded image of one of `formats`; *texture gets its size and the offset of its
+ * texels. `subject` and `name` are for messages. */
 bool texture_keep(scene_builder *builder, const void *data, size_t size, texture_format formats,
-                  const char *subject, const char *name, scene_texture *texture, cli_error *error);
+                  const char *subject, const char *name, scene_texture *texture, base_error *error);
 
-/* The noun of what cannot be decoded, for builder_left_out. */
+/* The noun that builder_unsupported takes for an image that cannot be decoded. */
 #define TEXTURE_UNDECODABLE "undecodable image"
 
-/* Keeps data that stay where they are as long as `images`: once, whoever asks. Of what is no image
- * the texture's width is 0; false without memory alone. */
+/* Appends an encoded image once, however often it is requested; the data must stay in place as long
+ * as `images`. If the data are not an image, the texture's width is 0. Returns false only if memory
+ * ran out. */
 bool texture_keep_once(texture_images *images, const void *data, size_t size,
                        texture_format formats, const char *subject, const char *name,
-                       scene_texture *texture, cli_error *error);
+                       scene_texture *texture, base_error *error);
 
-/* Where the texels of an image end, in bytes. */
+/* Returns the byte offset of the end of an image's texels. */
 uint64_t texture_texels_end(const scene_image *image);
 
 /* Decodes an image to RGBA, rows from the top. */
 bool texture_decode(const scene_image *image, const unsigned char *encoded, unsigned char *texels,
-                    const char *subject, cli_error *error);
+                    const char *subject, base_error *error);
 
-/* Takes the image whose texels begin there from the materials that show it. */
+/* Removes from the materials the image whose texels begin at that offset. */
 void texture_forget(scene_material *materials, size_t count, const scene_texture *textures,
                     const scene_image *image);
 
-/* Replaces a builder's images by their texels, for what decodes them itself. One that cannot be
- * decoded is left out, and *error tells why; false without memory alone. */
-bool texture_decode_all(scene_builder *builder, const char *subject, cli_error *error);
+/* Replaces a builder's images by their texels, for readers that decode them themselves. An image
+ * that cannot be decoded is dropped, with the reason in *error; returns false only if memory ran
+ * out. */
+bool texture_decode_all(scene_builder *builder, const char *subject, base_error *error);
 
-/* The number of the builder's texture of the same texels, color space and wrap modes, which is
- * added where there is none; -1 without memory. */
+/* Returns the number of the builder's texture with the same texels, color space and wrap modes,
+ * adding it if there is none; -1 if memory ran out. */
 int32_t texture_use(scene_builder *builder, const scene_texture *texture);
 
 #endif

@@ -2,7 +2,7 @@
 #include "app/scene/texture_file.h"
 
 bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, scene_wrap wrap_u,
-                      scene_wrap wrap_v, scene_texture_use *use, cli_error *error) {
+                      scene_wrap wrap_v, scene_texture_use *use, base_error *error) {
     scene_builder *const builder = files->images.builder;
     const char *const subject = files->sources->subject;
     const source *found;
@@ -11,20 +11,20 @@ bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, sce
     if (!sources_read_optional(files->sources, path, &found, &state, error))
         return false;
     if (!found) {
-        builder_left_out_file(builder, path, source_state_nouns[state]);
+        builder_unsupported_file(builder, path, source_state_nouns[state]);
         return true;
     }
     if (!texture_keep_once(&files->images, found->data, found->size, TEXTURE_ANY, subject,
                            found->path, &texture, error))
         return false;
     if (texture.width == 0) {
-        builder_left_out_file(builder, path, TEXTURE_UNDECODABLE);
+        builder_unsupported_file(builder, path, TEXTURE_UNDECODABLE);
         return true;
     }
     scene_clean_name(texture.name, found->path);
     const int32_t number = texture_use(builder, &texture);
     if (number < 0)
-        return cli_fail(error, subject, "does not fit into memory");
+        return base_fail(error, subject, "does not fit into memory");
     use->texture = number;
     return true;
 }

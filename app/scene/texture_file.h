@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* texture_file.h - textures that materials refer to by the names of files, each made once. */
+/* texture_file.h - textures that materials refer to by file name, each made once. */
 #ifndef LAMPION_SCENE_TEXTURE_FILE_H
 #define LAMPION_SCENE_TEXTURE_FILE_H
 
@@ -11,9 +11,9 @@ typedef struct texture_files {
     texture_images images;
 } texture_files;
 
-/* Finds or makes the texture of a file; one that cannot be read or decoded is noted as left out,
- * and *use stays as it is. False without memory alone. */
+/* Finds or makes the texture of a file. A file that cannot be read or decoded is noted as
+ * unsupported, and *use stays as it is. Returns false only if memory ran out. */
 bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, scene_wrap wrap_u,
-                      scene_wrap wrap_v, scene_texture_use *use, cli_error *error);
+                      scene_wrap wrap_v, scene_texture_use *use, base_error *error);
 
 #endif

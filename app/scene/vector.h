@@ -61,12 +61,12 @@ static inline float vec_length(lmp_vec3 a) {
     return sqrtf(vec_dot(a, a));
 }
 
-/* `fallback` where a has no direction. */
+/* Normalizes a; returns `fallback` if a has no direction. */
 static inline lmp_vec3 vec_normalize(lmp_vec3 a, lmp_vec3 fallback) {
     const float square = vec_dot(a, a);
     if (square > 1e-30f && square < 1e30f)
         return vec_scale(a, 1.0f / sqrtf(square));
-    /* Squares of floats under- and overflow, or lose their digits, those of doubles do not. */
+    /* squares of floats may overflow, underflow or lose digits; those of doubles do not */
     const double x = (double)a.x, y = (double)a.y, z = (double)a.z;
     const double length = sqrt(x * x + y * y + z * z);
     return length > 0.0 && isfinite(length)
@@ -74,7 +74,7 @@ static inline lmp_vec3 vec_normalize(lmp_vec3 a, lmp_vec3 fallback) {
                : fallback;
 }
 
-/* A unit vector across the unit vector n. */
+/* Returns a unit vector perpendicular to the unit vector n. */
 static inline lmp_vec3 vec_across(lmp_vec3 n) {
     const lmp_vec3 axis = fabsf(n.x) < 0.6f ? vec(1.0f, 0.0f, 0.0f) : vec(0.0f, 0.0f, 1.0f);
     return vec_normalize(vec_cross(axis, n), vec(1.0f, 0.0f, 0.0f));

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/world.h"
-
-#include "app/file/file.h"
+#include "app/base/file_json.h"
 
 #include <lampion/light.h>
 
-#include <cjson/cJSON.h>
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -36,7 +34,7 @@ void scene_point_rebase(const double from[3], const double to[3], float point[3]
 }
 
 void scene_print_world(double origin, float coordinate, int digits, scene_world_text text) {
-    enum { EXACT = 17 }; /* of a double */
+    enum { EXACT = 17 }; /* digits of a double */
     const double world = scene_to_world(origin, coordinate);
     snprintf(text, sizeof(scene_world_text), "%.*g", digits, world);
     while (origin != 0.0 && digits < EXACT &&
@@ -44,17 +42,21 @@ void scene_print_world(double origin, float coordinate, int digits, scene_world_
         snprintf(text, sizeof(scene_world_text), "%.*g", ++digits, world);
 }
 
-void scene_add_world(struct cJSON *object, const char *name, const double origin[3],
-                     const float point[3]) {
-    cJSON *array = cJSON_AddArrayToObject(object, name);
-    for (int k = 0; k < 3; k++) {
-        scene_world_text text;
-        scene_print_world(origin[k], point[k], 9, text);
-        cJSON_AddItemToArray(array, cJSON_CreateRaw(text));
-    }
+static json_t *coordinate_to_json(double origin, float coordinate) {
+    scene_world_text text;
+    if (origin == 0.0)
+        return file_json_float(coordinate);
+    scene_print_world(origin, coordinate, 9, text);
+    return file_json_real(strtod(text, NULL));
 }
 
-bool scene_read_world(const struct cJSON *item, const double origin[3], float point[3]) {
+json_t *scene_world_to_json(const double origin[3], const float point[3]) {
+    return json_pack("[o, o, o]", coordinate_to_json(origin[0], point[0]),
+                     coordinate_to_json(origin[1], point[1]),
+                     coordinate_to_json(origin[2], point[2]));
+}
+
+bool scene_read_world(const json_t *item, const double origin[3], float point[3]) {
     double world[3];
     if (!file_json_numbers(item, 3, -DBL_MAX, DBL_MAX, world))
         return false;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/baking.h"
-#include "app/file/file.h"
-#include "app/method/method.h"
+#include "app/base/file_cache.h"
+#include "app/render/method.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -11,7 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The process that makes the tables of a side, or 0 if none could be started. */
+/* Starts the process that tabulates the materials of a side; returns 0 if it could not be
+ * started. */
 static pid_t start(view_baking *baking, const view_shading *shading) {
     enum { OPTIONS = 7 };
     static char program[] = "/proc/self/exe", name[] = "lampion", command[] = "brdf",
@@ -47,8 +48,8 @@ static pid_t start(view_baking *baking, const view_shading *shading) {
     return process;
 }
 
-/* Whether they are those of the settings. */
-static bool is_of(const view_baking *baking, const view_settings *settings, int sides) {
+bool view_bakes(const view_baking *baking, const view_settings *settings) {
+    const int sides = view_sides(settings);
     return baking->sides == sides && baking->material_count == settings->material_count &&
            memcmp(baking->shading, settings->shading, (size_t)sides * sizeof *baking->shading) ==
                0 &&
@@ -56,17 +57,17 @@ static bool is_of(const view_baking *baking, const view_settings *settings, int 
                   (size_t)settings->material_count * sizeof *baking->materials) == 0;
 }
 
-/* Without a cache nothing that another process makes could be read. */
+/* Whether there is a cache, without which the other process's tables could not be read. */
 static bool has_cache(void) {
     char path[4096];
     return file_cache_directory(path, sizeof path) && access(path, W_OK) == 0;
 }
 
 bool view_bake(view_baking *baking, const view_settings *settings) {
-    const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
+    const int sides = view_sides(settings);
     if (settings->material_count == 0 || !has_cache())
         return false;
-    if (!is_of(baking, settings, sides)) {
+    if (!view_bakes(baking, settings)) {
         view_baking_stop(baking);
         baking->sides = sides;
         baking->material_count = settings->material_count;
@@ -85,7 +86,7 @@ bool view_bake(view_baking *baking, const view_settings *settings) {
 void view_baking_stop(view_baking *baking) {
     if (baking->process > 0) {
         kill(baking->process, SIGTERM);
-        kill(baking->process, SIGCONT); /* a stopped process ends only then */
+        kill(baking->process, SIGCONT); /* a stopped process ends only after this */
         waitpid(baking->process, NULL, 0);
     }
     memset(baking, 0, sizeof *baking);

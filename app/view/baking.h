@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* baking.h - tables of materials made beside the viewer, which goes on drawing: by a process of
- * `lampion brdf bake`, into the cache. */
+/* baking.h - tabulation of materials in a process of `lampion brdf bake`, into the cache, while the
+ * viewer goes on drawing. */
 #ifndef LAMPION_VIEW_BAKING_H
 #define LAMPION_VIEW_BAKING_H
 
@@ -8,16 +8,20 @@
 
 #include <sys/types.h>
 
-/* What is being made, or was; zero-initialized: nothing yet. */
+/* The tabulation in progress, or the last one; zero-initialized: none yet. */
 typedef struct view_baking {
-    pid_t process; /* of one side after the other, each on all cores; 0: none */
+    pid_t process; /* tabulates one side after the other, each on all cores; 0: none */
     int started, sides, material_count;
     view_shading shading[2];
     char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE];
 } view_baking;
 
-/* Makes the tables of these settings, in place of those of others. False once that has ended, well
- * or not: they can be read from the cache, or what is wrong is found by making them here. */
+/* Whether the tables of these settings are being made, or were. */
+bool view_bakes(const view_baking *baking, const view_settings *settings);
+
+/* Makes the tables of these settings, dropping any others in progress. Returns false once it has
+ * ended, successfully or not: the tables can then be read from the cache, or the error is found by
+ * making them here. */
 bool view_bake(view_baking *baking, const view_settings *settings);
 
 void view_baking_stop(view_baking *baking);

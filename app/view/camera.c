@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define STEEPEST 1.55f /* nearly straight up or down */
+#define STEEPEST 1.55f /* elevation limit, nearly straight up or down */
 
 typedef struct frame {
     lmp_vec3 eye, right, up, forward;
@@ -86,8 +86,8 @@ void view_fly(scene_camera *camera, float right, float up, float forward) {
 
 void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspect) {
     const frame f = frame_of(camera);
-    const float half = atanf(tanf(0.5f * camera->fov) * fminf(aspect, 1));
-    const float distance = fmaxf(radius, 1e-6f) / sinf(half);
+    const float half_angle = atanf(tanf(0.5f * camera->fov) * fminf(aspect, 1));
+    const float distance = fmaxf(radius, 1e-6f) / sinf(half_angle);
     if (camera->height > 0)
         camera->height = 2 * fmaxf(radius, 1e-6f) / fminf(aspect, 1);
     vec_store(center, camera->target);
@@ -132,10 +132,10 @@ int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count
         const lmp_vec3 way = vec_sub(lights[i].emitter.position, ray->from);
         const float along = vec_dot(way, ray->direction);
         const lmp_vec3 miss = vec_sub(way, vec_scale(ray->direction, along));
-        const float reach = lights[i].emitter.radius + pixels * (ray->pixel + ray->spread * along);
-        /* not the light that one is inside of: it would catch every ray */
-        if (!(along > 0) || vec_length(way) <= lights[i].emitter.radius ||
-            !(vec_dot(miss, miss) <= reach * reach))
+        const float extent = scene_light_extent(&lights[i].emitter);
+        const float reach = extent + pixels * (ray->pixel + ray->spread * along);
+        /* not the light that the eye is inside of, which would catch every ray */
+        if (!(along > 0) || vec_length(way) <= extent || !(vec_dot(miss, miss) <= reach * reach))
             continue;
         if (nearest < 0 || along < *distance) {
             nearest = (int)i;
@@ -163,7 +163,7 @@ static bool may_hit(const view_ray *ray, const float minimum[3], const float max
     return enter <= leave;
 }
 
-/* Möller and Trumbore 1997. */
+/* Returns the distance to a triangle (Möller and Trumbore 1997). */
 static float hit_triangle(const view_ray *ray, lmp_vec3 p, lmp_vec3 q, lmp_vec3 r,
                           lmp_vec3 *normal) {
     const lmp_vec3 a = vec_sub(q, p), b = vec_sub(r, p), h = vec_cross(ray->direction, b);

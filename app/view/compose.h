@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* compose.h - one image, two beside each other, or how they differ (shaders/compose.frag does the
- * same in a window). */
+/* compose.h - one image, two side by side, or their difference (shaders/program/compose.frag does
+ * the same in a window). */
 #ifndef LAMPION_VIEW_COMPOSE_H
 #define LAMPION_VIEW_COMPOSE_H
 
@@ -11,7 +11,7 @@ typedef struct view_side {
     unsigned char *rgb8; /* rows from the top */
 } view_side;
 
-/* rgb8: of the layout's size, which is that of the sides. */
+/* Composes the sides into rgb8, which has the layout's size, as the sides have. */
 void view_compose(const view_side sides[2], const gpu_layout *layout, unsigned char *rgb8);
 
 #endif

@@ -1,54 +1,50 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/compositor.h"
-#include "app/override/override.h"
-#include "app/render/shade/field.h"
-#include "app/render/shadow/shadow.h"
+#include "app/render/renderer/shadows.h"
+#include "app/render/shade_field.h"
 #include "app/view/compose.h"
-#include "app/view/draft.h"
 #include "app/view/lobes.h"
+#include "app/view/materials.h"
+#include "app/view/preview.h"
 #include "app/view/surroundings.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* From so many triangles on a software device draws a coarser scene while things move. */
-enum { DRAFT_TRIANGLES = 50000, DRAFT_CELLS = 300 };
+/* From so many triangles on, a software device draws a coarser scene, with so many cells along its
+ * diagonal, while things move. */
+enum { PREVIEW_TRIANGLES = 50000, PREVIEW_CELLS = 300 };
 
-/* In full; coarse while the camera rests; coarse and of fewer triangles while it moves. */
+/* The quality of an image: fine; coarse while the camera rests; coarse and with fewer triangles
+ * while it moves. */
 typedef enum quality { FINE, RESTING, MOVING, QUALITIES } quality;
 
-/* One side's renderers and field, and the materials that they have been given. */
+/* The renderers and the field of one side, and the materials that its renderers have. */
 typedef struct side {
-    any_renderer *renderers[QUALITIES],
-        *cpu;           /* on the GPU; on the CPU, which draws all qualities */
-    shade_field *field; /* of its method, or NULL */
-    override_set materials;
-    char (*names)[VIEW_MATERIAL_SIZE]; /* of them, RENDER_TABLES_MAX allocated */
-    int count, bands;
-    lmp_window window;
-    bool preintegrated;
+    any_renderer *renderers[QUALITIES], *cpu; /* on the GPU; on the CPU, for all qualities */
+    shade_field *field;                       /* for its method, or NULL */
+    view_materials materials;
 } side;
 
 struct view_compositor {
-    render_device gpu, cpu; /* the second once something is drawn there; without OpenGL, not the
-                               first */
+    render_device gpu, cpu; /* cpu once something is drawn there; gpu not without OpenGL */
     const scene *world;
-    scene draft; /* without vertices: the scene itself serves */
+    scene preview; /* without vertices, the scene itself is drawn instead */
     gpu_screen *screen;
-    view_side shown[2]; /* of the sides, without a screen */
+    view_side shown[2]; /* the images of the sides, if there is no screen */
     side sides[2];
     shadow *shadows;
     view_surroundings surroundings;
     scene_light *lit; /* the settings' lights and the environment's suns, or NULL */
     view_lobes lobes;
-    scene_camera camera; /* of the last draft */
+    scene_camera camera; /* of the last preview */
 };
 
 view_compositor *view_compositor_create(const gpu_context *context, const scene *world,
-                                        cli_error *error) {
+                                        base_error *error) {
     view_compositor *s = calloc(1, sizeof *s);
     if (!s) {
-        cli_fail(error, NULL, "out of memory");
+        base_fail(error, NULL, "out of memory");
         return NULL;
     }
     s->world = world;
@@ -68,8 +64,7 @@ static void close_side(side *own) {
         renderer_destroy(own->renderers[i]);
     renderer_destroy(own->cpu);
     shade_field_destroy(own->field);
-    override_free(&own->materials);
-    free(own->names);
+    view_materials_free(&own->materials);
     memset(own, 0, sizeof *own);
 }
 
@@ -87,7 +82,7 @@ void view_compositor_destroy(view_compositor *s) {
     free(s->shown[1].rgb8);
     render_device_close(&s->gpu);
     render_device_close(&s->cpu);
-    view_draft_free(&s->draft);
+    view_preview_free(&s->preview);
     free(s);
 }
 
@@ -97,9 +92,9 @@ gpu_screen *view_compositor_screen(view_compositor *s) {
 
 /* --- fields ----------------------------------------------------------------------------------- */
 
-/* One for so many bands, or NULL where the method reads none. */
-static bool settle_field(view_compositor *s, side *own, const view_shading *shading,
-                         render_frame *frame, cli_error *error) {
+/* Makes a field for so many bands, or frees it if the method reads none. */
+static bool prepare_field(view_compositor *s, side *own, const view_shading *shading,
+                          render_frame *frame, base_error *error) {
     const shade_field_options options = { .error = SHADE_FIELD_ERROR,
                                           .moves = true,
                                           .bytes_max = s->screen ? s->gpu.gl.storage_max : 0 };
@@ -123,57 +118,39 @@ static bool is_preintegrated(const view_shading *shading) {
 
 static bool has_materials(const view_compositor *s, const side *own, const view_settings *settings,
                           const view_shading *shading) {
-    return own->count == settings->material_count &&
-           (!override_is_needed(own->count, s->world) ||
-            (own->bands == shading->bands && own->window == shading->window &&
-             own->preintegrated == is_preintegrated(shading) &&
-             memcmp(own->names, settings->materials, (size_t)own->count * sizeof *own->names) ==
-                 0));
+    return view_materials_match(&own->materials, s->world, settings, shading);
 }
 
-static bool apply_materials(view_compositor *s, side *own, const override_set *materials,
-                            cli_error *error) {
-    bool ok = !own->cpu || override_apply(materials, s->world, own->cpu, error);
+static bool apply_materials(view_compositor *s, side *own, const view_materials *materials,
+                            base_error *error) {
+    bool ok = !own->cpu || override_apply(&materials->made, s->world, own->cpu, error);
     for (int i = 0; i < QUALITIES && ok; i++)
-        ok = !own->renderers[i] || override_apply(materials, s->world, own->renderers[i], error);
+        ok = !own->renderers[i] ||
+             override_apply(&materials->made, s->world, own->renderers[i], error);
     return ok;
 }
 
-static bool settle_materials(view_compositor *s, side *own, const view_settings *settings,
-                             const view_shading *shading, cli_error *error) {
-    override_set fresh = { .count = 0 };
-    cli_list list = { .count = settings->material_count };
+/* Makes the materials of a side, whose tables are known to fit its renderers. */
+static bool prepare_materials(view_compositor *s, side *own, const view_settings *settings,
+                              const view_shading *shading, base_error *error) {
+    view_materials fresh;
     if (has_materials(s, own, settings, shading))
         return true;
-    if (!own->names && !(own->names = calloc(RENDER_TABLES_MAX, sizeof *own->names)))
-        return cli_fail(error, NULL, "out of memory");
-    for (int i = 0; i < list.count; i++)
-        list.items[i] = settings->materials[i];
-    bool ok =
-        override_open(&list, s->world, &fresh, error) &&
-        override_fits(&fresh, shading->bands, shading->method, own->renderers, QUALITIES, error) &&
-        override_bake(&fresh, shading->bands, shading->window, error) &&
-        override_bake_fibers(&fresh, s->world, shading->bands, shading->window, error) &&
-        (!is_preintegrated(shading) || override_preintegrate(&fresh, error));
-    ok = ok && apply_materials(s, own, &fresh, error);
-    if (!ok) { /* as before, for what is drawn next */
-        cli_error ignored;
+    if (!view_materials_make(s->world, settings, shading, &fresh, error))
+        return false;
+    if (!apply_materials(s, own, &fresh, error)) { /* keep the earlier ones */
+        base_error ignored;
         apply_materials(s, own, &own->materials, &ignored);
-        override_free(&fresh);
+        view_materials_free(&fresh);
         return false;
     }
-    override_free(&own->materials);
+    view_materials_free(&own->materials);
     own->materials = fresh;
-    own->count = settings->material_count;
-    own->bands = shading->bands;
-    own->window = shading->window;
-    own->preintegrated = is_preintegrated(shading);
-    memcpy(own->names, settings->materials, (size_t)own->count * sizeof *own->names);
     return true;
 }
 
 const char *view_compositor_pending(view_compositor *s, const view_settings *settings) {
-    const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
+    const int sides = view_sides(settings);
     for (int i = 0; i < sides; i++) {
         const view_shading *shading = &settings->shading[i];
         if (!has_materials(s, &s->sides[i], settings, shading))
@@ -188,26 +165,27 @@ const char *view_compositor_pending(view_compositor *s, const view_settings *set
 
 /* --- drawing ---------------------------------------------------------------------------------- */
 
-static bool has_draft(const view_compositor *s) {
-    return s->gpu.gl.software && s->world->index_count / 3 > DRAFT_TRIANGLES;
+static bool has_preview(const view_compositor *s) {
+    return s->gpu.gl.software && s->world->index_count / 3 > PREVIEW_TRIANGLES;
 }
 
-/* Of a draft. Triangles that stand for many would hide light from each other. */
+/* Chooses the quality of a preview. With shadows the scene is not simplified, because triangles
+ * that stand for many would block light from each other. */
 static quality choose_quality(const view_compositor *s, const view_settings *settings, bool rests) {
-    return rests || settings->shadows || !has_draft(s) ? RESTING : MOVING;
+    return rests || settings->shadows || !has_preview(s) ? RESTING : MOVING;
 }
 
-/* What a renderer is told that its side has been given before. */
+/* Gives a renderer the materials and environment that its side already has. */
 static bool prepare_renderer(view_compositor *s, side *own, any_renderer *renderer,
-                             cli_error *error) {
+                             base_error *error) {
     if (!renderer)
         return false;
     renderer_set_environment(renderer, &s->surroundings.around);
-    return !override_is_needed(own->count, s->world) ||
-           override_apply(&own->materials, s->world, renderer, error);
+    return !override_is_needed(own->materials.count, s->world) ||
+           override_apply(&own->materials.made, s->world, renderer, error);
 }
 
-static bool open_cpu(view_compositor *s, side *own, cli_error *error) {
+static bool open_cpu(view_compositor *s, side *own, base_error *error) {
     if (own->cpu)
         return true;
     if (!s->cpu.cpu && !render_device_open(DEVICE_CPU, NULL, s->world, &s->cpu, error))
@@ -216,46 +194,74 @@ static bool open_cpu(view_compositor *s, side *own, cli_error *error) {
     return prepare_renderer(s, own, own->cpu, error);
 }
 
-static bool open_gpu(view_compositor *s, side *own, quality fineness, cli_error *error) {
+static bool open_gpu(view_compositor *s, side *own, quality fineness, base_error *error) {
     any_renderer **const renderer = &own->renderers[fineness];
     render_device device = s->gpu;
     if (*renderer)
         return true;
     const bool simplify = fineness == MOVING;
-    if (simplify && !s->draft.vertices && !view_draft_make(s->world, DRAFT_CELLS, &s->draft, error))
+    if (simplify && !s->preview.vertices &&
+        !view_preview_make(s->world, PREVIEW_CELLS, &s->preview, error))
         return false;
     if (simplify)
-        device.scene = &s->draft;
+        device.scene = &s->preview;
     *renderer = renderer_create(&device, error);
     return prepare_renderer(s, own, *renderer, error);
 }
 
+static bool has_areas(const view_settings *settings) {
+    return scene_find_area(settings->lights, settings->light_count);
+}
+
 static device_kind device_of(const view_settings *settings, const view_shading *shading,
                              bool shines, bool software) {
-    const bool tables = settings->material_count > 0 && shines;
-    return method_device(shading->method, DEVICE_AUTO, tables, software, shading->bands);
+    const method_needs needs = { .bands = shading->bands,
+                                 .tables = settings->material_count > 0 && shines,
+                                 .areas = has_areas(settings),
+                                 .software = software };
+    return method_device(shading->method, DEVICE_AUTO, &needs);
 }
 
 bool view_compositor_does_without(const view_settings *settings) {
-    const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
+    const int sides = view_sides(settings);
     bool without = true;
     for (int i = 0; i < sides; i++)
         without = without && device_of(settings, &settings->shading[i], true, true) == DEVICE_CPU;
     return without;
 }
 
-/* The renderer that draws a side, by the settings' method. */
+/* Returns the renderer that draws a side by the settings' method. */
 static any_renderer *open_side(view_compositor *s, side *own, const view_settings *settings,
-                               const view_shading *shading, quality fineness, cli_error *error) {
+                               const view_shading *shading, quality fineness, base_error *error) {
     const bool shines = environment_shines(&s->surroundings.around);
     if (!s->screen || device_of(settings, shading, shines, s->gpu.gl.software) == DEVICE_CPU)
         return open_cpu(s, own, error) ? own->cpu : NULL;
     return open_gpu(s, own, fineness, error) ? own->renderers[fineness] : NULL;
 }
 
-/* Opens the environment of the settings, with the coefficients of both sides. */
-static bool settle_environment(view_compositor *s, const view_settings *settings,
-                               cli_error *error) {
+/* Whether the tables of all sides' materials fit their renderers. */
+static bool fit_materials(view_compositor *s, const view_settings *settings, quality fineness,
+                          base_error *error) {
+    const int sides = view_sides(settings);
+    for (int i = 0; i < sides; i++) {
+        const view_shading *shading = &settings->shading[i];
+        if (has_materials(s, &s->sides[i], settings, shading))
+            continue;
+        any_renderer *renderer = open_side(s, &s->sides[i], settings, shading, fineness, error);
+        if (!renderer || !view_materials_fit(s->world, settings, shading, renderer, error))
+            return false;
+    }
+    return true;
+}
+
+bool view_compositor_fits(view_compositor *s, const view_settings *settings) {
+    base_error ignored;
+    return fit_materials(s, settings, FINE, &ignored);
+}
+
+/* Opens the environment of the settings, with coefficients for both sides. */
+static bool prepare_environment(view_compositor *s, const view_settings *settings,
+                                base_error *error) {
     const int first = settings->shading[0].bands, second = settings->shading[1].bands;
     const int bands = first > second ? first : second;
     environment *around = &s->surroundings.around;
@@ -276,30 +282,31 @@ static bool settle_environment(view_compositor *s, const view_settings *settings
     return environment_project(around, bands, error);
 }
 
-static bool settle_shadows(view_compositor *s, const view_settings *settings, render_pass *pass,
-                           cli_error *error) {
+static bool prepare_shadows(view_compositor *s, const view_settings *settings, render_pass *pass,
+                            base_error *error) {
     static const shadow_settings quick = { .sparse = true, .apart = true };
     if (!settings->shadows)
         return true;
     if (!s->shadows)
-        s->shadows = shadow_create(s->world, render_device_bvh(s->cpu.cpu ? &s->cpu : &s->gpu),
-                                   &s->surroundings.around, &quick, error);
-    *pass = (render_pass) { shadow_frame, s->shadows };
+        s->shadows = render_device_shadow(s->cpu.cpu ? &s->cpu : &s->gpu, &s->surroundings.around,
+                                          &quick, error);
+    if (s->shadows)
+        *pass = shadow_pass(s->shadows);
     return s->shadows;
 }
 
-static bool add_suns(view_compositor *s, render_frame *frame, cli_error *error) {
+static bool add_suns(view_compositor *s, render_frame *frame, base_error *error) {
     if (!s->lit && !(s->lit = calloc(SCENE_LIGHTS_MAX, sizeof *s->lit)))
-        return cli_fail(error, NULL, "out of memory");
+        return base_fail(error, NULL, "out of memory");
     frame->lights = memcpy(s->lit, frame->lights, frame->light_count * sizeof *s->lit);
     frame->light_count = environment_add_suns(&s->surroundings.around, s->lit, frame->light_count);
     return true;
 }
 
-/* How to draw a side: how many samples come from what samples counts. */
+/* Fills in the frame that draws a side; a preview, with divisor > 1, has one sample. */
 static bool fill_frame(view_compositor *s, const view_settings *settings,
                        const view_shading *shading, int divisor, render_frame *frame,
-                       cli_error *error) {
+                       base_error *error) {
     *frame = (render_frame) {
         .width = settings->width > divisor ? settings->width / divisor : 1,
         .height = settings->height > divisor ? settings->height / divisor : 1,
@@ -319,30 +326,30 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
            (s->surroundings.around.sun_count == 0 || add_suns(s, frame, error));
 }
 
-/* Takes a side's image for the screen, or for a file without one. */
+/* Stores a side's image for the screen or, without one, for a file. */
 static bool show_side(view_compositor *s, const view_settings *settings, any_renderer *renderer,
-                      const render_frame *frame, int number, cli_error *error) {
+                      const render_frame *frame, int number, base_error *error) {
     const image_display display = { .exposure = settings->exposure, .tone = settings->tone };
     view_side *shown = &s->shown[number];
     if (s->screen)
         return renderer_show(renderer, s->screen, number, &display) ||
-               cli_fail(error, NULL, "out of memory");
+               base_fail(error, NULL, "out of memory");
     free(shown->rgb8);
     *shown = (view_side) { frame->width, frame->height,
                            malloc(3 * (size_t)frame->width * (size_t)frame->height) };
     return shown->rgb8 ? renderer_read_rgb8(renderer, &display, shown->rgb8, NULL, error)
-                       : cli_fail(error, NULL, "out of memory");
+                       : base_fail(error, NULL, "out of memory");
 }
 
-/* Sample `index`, or with -1 all. */
+/* Draws sample `index`, or all samples if it is -1. */
 static bool draw(view_compositor *s, const view_settings *settings, int divisor, int index,
-                 view_statistics *statistics, cli_error *error) {
-    const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
+                 view_statistics *statistics, base_error *error) {
+    const int sides = view_sides(settings);
     const bool rests = memcmp(&s->camera, &settings->camera, sizeof s->camera) == 0;
     const quality fineness = divisor > 1 ? choose_quality(s, settings, rests) : FINE;
     s->camera = settings->camera;
     memset(statistics, 0, sizeof *statistics);
-    if (!settle_environment(s, settings, error))
+    if (!prepare_environment(s, settings, error) || !fit_materials(s, settings, fineness, error))
         return false;
     for (int i = 0; i < sides; i++) {
         side *own = &s->sides[i];
@@ -350,10 +357,10 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         render_frame frame;
         render_times times;
         any_renderer *const renderer = open_side(s, own, settings, shading, fineness, error);
-        if (!renderer || !settle_materials(s, own, settings, shading, error) ||
+        if (!renderer || !prepare_materials(s, own, settings, shading, error) ||
             !fill_frame(s, settings, shading, divisor, &frame, error) ||
-            !settle_field(s, own, shading, &frame, error) ||
-            !settle_shadows(s, settings, &frame.shadow, error))
+            !prepare_field(s, own, shading, &frame, error) ||
+            !prepare_shadows(s, settings, &frame.shadow, error))
             return false;
         frame.keep_geometry = renderer->cpu ? rests : fineness == RESTING && s->gpu.gl.software;
         if (index < 0 ? !renderer_draw(renderer, &frame, &times, error)
@@ -375,32 +382,32 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
 }
 
 bool view_compositor_draw(view_compositor *s, const view_settings *settings,
-                          view_statistics *statistics, cli_error *error) {
+                          view_statistics *statistics, base_error *error) {
     return draw(s, settings, 1, -1, statistics, error);
 }
 
-bool view_compositor_draft(view_compositor *s, const view_settings *settings, int divisor,
-                           view_statistics *statistics, cli_error *error) {
+bool view_compositor_preview(view_compositor *s, const view_settings *settings, int divisor,
+                             view_statistics *statistics, base_error *error) {
     return draw(s, settings, divisor, 0, statistics, error);
 }
 
 bool view_compositor_refine(view_compositor *s, const view_settings *settings, int index,
-                            view_statistics *statistics, cli_error *error) {
+                            view_statistics *statistics, base_error *error) {
     return draw(s, settings, 1, index, statistics, error);
 }
 
 bool view_compositor_expose(view_compositor *s, const view_settings *settings, float *exposure,
-                            cli_error *error) {
+                            base_error *error) {
     const view_shading *shading = &settings->shading[0];
     render_frame frame;
     any_renderer *renderer;
     image pixels;
     side *own = &s->sides[0];
-    if (!settle_environment(s, settings, error) ||
+    if (!prepare_environment(s, settings, error) || !fit_materials(s, settings, FINE, error) ||
         !(renderer = open_side(s, own, settings, shading, FINE, error)) ||
-        !settle_materials(s, own, settings, shading, error) ||
+        !prepare_materials(s, own, settings, shading, error) ||
         !fill_frame(s, settings, shading, 1, &frame, error) ||
-        !settle_field(s, own, shading, &frame, error))
+        !prepare_field(s, own, shading, &frame, error))
         return false;
     *exposure = environment_exposure(&s->surroundings.around, settings->light_count);
     if (*exposure > 0)
@@ -423,11 +430,11 @@ void view_compositor_show(view_compositor *s, const view_settings *settings, flo
 }
 
 bool view_compositor_write(view_compositor *s, const view_settings *settings, const char *path,
-                           cli_error *error) {
+                           base_error *error) {
     const gpu_layout layout = layout_of(settings, 0);
     unsigned char *rgb8 = malloc(3 * (size_t)settings->width * (size_t)settings->height);
     if (!rgb8)
-        return cli_fail(error, path, "out of memory");
+        return base_fail(error, path, "out of memory");
     bool ok = true;
     if (s->screen)
         ok = gpu_screen_read(s->screen, &layout, rgb8, error);

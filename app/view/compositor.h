@@ -7,48 +7,53 @@
 
 typedef struct view_compositor view_compositor;
 
-/* Whether the CPU can draw all of it, and so no OpenGL is needed. */
+/* Whether the CPU can draw everything in the settings, so that OpenGL is not needed. */
 bool view_compositor_does_without(const view_settings *settings);
 
-/* In the context that is current, or without OpenGL for NULL: then nothing can be shown, and what
- * does not do without it cannot be drawn. The scene must outlive the compositor. NULL on failure.
- */
+/* Makes a compositor in the current context, or without OpenGL if context is NULL: then nothing can
+ * be shown, and settings that require OpenGL cannot be drawn. The scene must outlive the
+ * compositor. Returns NULL on failure. */
 view_compositor *view_compositor_create(const gpu_context *context, const scene *world,
-                                        cli_error *error);
+                                        base_error *error);
 void view_compositor_destroy(view_compositor *compositor);
 
-/* Milliseconds of the passes of the image drawn last, both sides together. */
+/* Milliseconds of the passes of the last image, of both sides together. */
 typedef struct view_statistics {
     render_times times;
     int width, height;
     device_kind device; /* of the first side */
 } view_statistics;
 
-/* What takes long before these settings can be drawn, for the user to read, or NULL. */
+/* Returns a message about slow work that must precede drawing these settings, or NULL. */
 const char *view_compositor_pending(view_compositor *compositor, const view_settings *settings);
+
+/* Whether the tables of the settings' materials will fit the devices: otherwise drawing these
+ * settings fails at once, so making the tables would be in vain. */
+bool view_compositor_fits(view_compositor *compositor, const view_settings *settings);
 
 /* Draws with all samples. */
 bool view_compositor_draw(view_compositor *compositor, const view_settings *settings,
-                          view_statistics *statistics, cli_error *error);
+                          view_statistics *statistics, base_error *error);
 
-/* Draws a part `divisor` of width and height with one sample and, on software, fewer triangles. */
-bool view_compositor_draft(view_compositor *compositor, const view_settings *settings, int divisor,
-                           view_statistics *statistics, cli_error *error);
+/* Draws a preview of 1 / `divisor` of width and height, with one sample and, on software, fewer
+ * triangles. */
+bool view_compositor_preview(view_compositor *compositor, const view_settings *settings,
+                             int divisor, view_statistics *statistics, base_error *error);
 
-/* Adds sample `index` of settings->samples to those of the same settings before. */
+/* Adds sample `index` of settings->samples to the earlier samples of the same settings. */
 bool view_compositor_refine(view_compositor *compositor, const view_settings *settings, int index,
-                            view_statistics *statistics, cli_error *error);
+                            view_statistics *statistics, base_error *error);
 
-/* The exposure that suits the settings, automatically. */
+/* Determines the exposure that suits the settings. */
 bool view_compositor_expose(view_compositor *compositor, const view_settings *settings,
-                            float *exposure, cli_error *error);
+                            float *exposure, base_error *error);
 
-/* What was drawn last: into the window, or as a screenshot. */
+/* Show the image drawn last in the window, or read it for a screenshot. */
 void view_compositor_show(view_compositor *compositor, const view_settings *settings, float line);
 bool view_compositor_write(view_compositor *compositor, const view_settings *settings,
-                           const char *path, cli_error *error);
+                           const char *path, base_error *error);
 
-/* For drawings over it; NULL without OpenGL. */
+/* Returns the screen, for drawings over it; NULL without OpenGL. */
 gpu_screen *view_compositor_screen(view_compositor *compositor);
 
 #endif

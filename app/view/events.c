@@ -8,13 +8,13 @@
 #include <math.h>
 #include <string.h>
 
-#define RADIANS_A_HEIGHT 3.0   /* of rotation, when the pointer crosses the image */
-#define ZOOM_STEP        0.88f /* of the distance, a step of the wheel */
-#define PICK_PIXELS      4.0f  /* a light may be missed by so much */
+#define RADIANS_A_HEIGHT 3.0   /* of rotation, when the pointer crosses the image's height */
+#define ZOOM_STEP        0.88f /* of the distance, per step of the wheel */
+#define PICK_PIXELS      4.0f  /* by which a light may be missed */
 #define DIVIDER_PIXELS   8.0
-#define FLY_SPEED        0.15f /* diagonals of the scene a second */
+#define FLY_SPEED        0.15f /* diagonals of the scene per second */
 #define FLY_FAST         4.0f
-#define WALK_STEP        0.02f /* of the diagonal, a step of the wheel */
+#define WALK_STEP        0.02f /* of the diagonal, per step of the wheel */
 
 static float scene_diagonal(const scene *world) {
     return vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
@@ -33,7 +33,7 @@ static view_ray pointer_ray(const view_state *s) {
 
 /* --- the pointer ------------------------------------------------------------------------------ */
 
-/* Through the middle of the image. */
+/* Returns the ray through the middle of the image. */
 static view_ray middle_ray(const view_state *s) {
     return view_ray_through(&s->now.camera, s->now.width, s->now.height, 0.5 * s->now.width,
                             0.5 * s->now.height);
@@ -49,7 +49,8 @@ static int light_at_pointer(const view_state *s) {
     if (light < 0)
         return -1;
     const view_hit hit = view_pick_surface(&ray, s->world);
-    return hit.mesh >= 0 && hit.distance < light_distance - shown.lights[light].emitter.radius
+    return hit.mesh >= 0 &&
+                   hit.distance < light_distance - scene_light_extent(&shown.lights[light].emitter)
                ? -1
                : light;
 }
@@ -69,8 +70,8 @@ static void grab_light(view_state *s, int index) {
     s->grab = vec_sub(s->now.lights[index].emitter.position, shown.emitter.position);
 }
 
-/* Under the pointer, in the plane across the view where it was grabbed. Where no file could put it
- * again it does not go: false. */
+/* Moves the light to the pointer, in the plane across the view where it was grabbed. Returns false,
+ * without moving it, beyond the range of positions in files. */
 static bool drag_light(view_state *s) {
     const scene_camera *camera = &s->now.camera;
     const view_ray ray =
@@ -139,7 +140,7 @@ static void move(view_state *s, double x, double y) {
     }
 }
 
-/* Zooms, walks, or takes a dragged light nearer and farther. */
+/* Zooms, walks, or moves a dragged light nearer and farther. */
 static void scroll(view_state *s, double steps) {
     const float factor = powf(ZOOM_STEP, (float)steps);
     if (s->drag == VIEW_DRAG_LIGHT && s->selected >= 0) {
@@ -184,7 +185,7 @@ static void type(view_state *s, const char *text) {
 }
 
 static void drop(view_state *s, const char *file) {
-    cli_error error;
+    base_error error;
     if (!view_take_file(s, file, &error))
         view_say(s, "%s", error.text);
 }

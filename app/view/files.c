@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* files.c - what files do that are dropped onto the window, or opened by name. */
+/* files.c - handles files that are dropped onto the window, or opened by name. */
+#include "app/base/file.h"
 #include "app/image/image.h"
-#include "app/material/material.h"
+#include "app/scene/material.h"
 #include "app/view/state.h"
 
 #include <stdio.h>
@@ -26,7 +27,7 @@ int view_material_at_pointer(const view_state *s) {
 }
 
 bool view_replace_material(view_state *s, const char *name, const char *replacement,
-                           cli_error *error) {
+                           base_error *error) {
     material opened;
     if (replacement) {
         if (!material_open(replacement, &opened, error))
@@ -34,16 +35,16 @@ bool view_replace_material(view_state *s, const char *name, const char *replacem
         material_close(&opened);
     }
     if (!view_set_material(&s->now, name, replacement))
-        return cli_fail(error, name, "cannot be replaced: too many materials, or too long a name");
+        return base_fail(error, name, "cannot be replaced: too many materials, or too long a name");
     view_say(s, "%s is %s", name, replacement ? base_name(replacement) : "as the scene has it");
     return true;
 }
 
-/* It becomes that of the object under the pointer. */
-static bool take_material(view_state *s, const char *file, cli_error *error) {
+/* Gives the material in a file to the object under the pointer. */
+static bool take_material(view_state *s, const char *file, base_error *error) {
     const view_hit hit = hit_at_pointer(s);
     if (hit.mesh < 0)
-        return cli_fail(error, base_name(file), "is a material: drop it onto an object");
+        return base_fail(error, base_name(file), "is a material: drop it onto an object");
     if (!view_replace_material(s, s->world->materials[s->world->meshes[hit.mesh].material].name,
                                file, error))
         return false;
@@ -53,12 +54,12 @@ static bool take_material(view_state *s, const char *file, cli_error *error) {
 
 /* --- lights and scenes ------------------------------------------------------------------------ */
 
-static bool take_lights(view_state *s, const char *file, cli_error *error) {
+static bool take_lights(view_state *s, const char *file, base_error *error) {
     size_t count;
     scene_light *lights = calloc(SCENE_LIGHTS_MAX, sizeof *lights);
     const bool ok =
         lights ? scene_read_lights(file, s->now.origin, SCENE_LIGHTS_MAX, lights, &count, error)
-               : cli_fail(error, NULL, "out of memory");
+               : base_fail(error, NULL, "out of memory");
     if (ok) {
         view_put_lights(s, lights, count);
         view_say(s, "%s: %zu light%s", base_name(file), count, count == 1 ? "" : "s");
@@ -67,27 +68,28 @@ static bool take_lights(view_state *s, const char *file, cli_error *error) {
     return ok;
 }
 
-static bool take_scene(view_state *s, const char *file, cli_error *error) {
+static bool take_scene(view_state *s, const char *file, base_error *error) {
     if (strlen(file) >= sizeof s->other)
-        return cli_fail(error, file, "is too long a name");
+        return base_fail(error, file, "is too long a name");
     strcpy(s->other, file);
-    s->wishes.reload = true;
+    s->requests.reload = true;
     return true;
 }
 
 static const struct {
     const char *ending;
-    bool (*take)(view_state *state, const char *file, cli_error *error);
+    bool (*take)(view_state *state, const char *file, base_error *error);
 } kinds[] = {
     { ".json", take_lights },   { ".png", take_lights },    { ".binary", take_material },
     { ".bsdf", take_material }, { ".lmpt", take_material },
 };
 
-/* A colon divides the parameters of a material. */
-bool view_take_file(view_state *s, const char *file, cli_error *error) {
+/* Opens a file by its extension. A colon separates the parameters of a material, so a name with a
+ * colon is a material. */
+bool view_take_file(view_state *s, const char *file, base_error *error) {
     const char *base = base_name(file), *dot = strrchr(base, '.');
     if (file_is_standard_input(file))
-        return cli_fail(error, file, "is not a file");
+        return base_fail(error, file, "is not a file");
     for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
         if (strcmp(dot, kinds[i].ending) == 0)
             return kinds[i].take(s, file, error);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* frame.c - an image as fine as there is time for. */
+/* frame.c - draws an image as finely as time allows. */
 #include "app/view/viewer.h"
 
 #include <math.h>
 #include <string.h>
 
-#define MOVING_SECONDS 0.060 /* a frame may take while things move */
-#define STILL_SECONDS  0.12  /* after the last change, refining begins */
+#define MOVING_SECONDS 0.060 /* for a frame while things move */
+#define STILL_SECONDS  0.12  /* from the last change until refinement begins */
 enum { DIVISOR_MAX = 6 };
 
 bool view_steps_time(const viewer *v) {
@@ -21,7 +21,7 @@ static void show(viewer *v, const char *announcement) {
     v->show_seconds = view_window_clock() - began;
 }
 
-/* Puts into settings how the image was shaded that could be drawn last. */
+/* Restores the shading settings of the last image that could be drawn. */
 static void shade_as_before(const viewer *v, view_settings *settings) {
     memcpy(settings->shading, v->good->shading, sizeof v->good->shading);
     memcpy(settings->materials, v->good->materials, sizeof v->good->materials);
@@ -30,14 +30,14 @@ static void shade_as_before(const viewer *v, view_settings *settings) {
     settings->shadows = v->good->shadows;
 }
 
-/* Settings that cannot be drawn are taken back, with a line that says why. */
-static bool take_back(viewer *v, const cli_error *error) {
+/* Reverts settings that cannot be drawn, with a message that says why. */
+static bool take_back(viewer *v, const base_error *error) {
     view_say(&v->state, "%s", error->text);
     if (v->good->width == 0)
         return false;
     const int width = v->state.now.width, height = v->state.now.height;
     shade_as_before(v, &v->state.now);
-    view_settings_rebase(v->good, v->state.now.origin); /* the scene may be another since */
+    view_settings_rebase(v->good, v->state.now.origin); /* the scene may be another one */
     v->state.now.camera = v->good->camera;
     v->state.now.width = width;
     v->state.now.height = height;
@@ -45,16 +45,17 @@ static bool take_back(viewer *v, const cli_error *error) {
     return true;
 }
 
-/* How coarse a draft has to be, from how long the last one took. */
+/* Adapts the coarseness of previews to how long the last one took. */
 static void adapt(viewer *v, double seconds) {
     const render_times *t = &v->statistics.times;
     const double finer = v->divisor > 1 ? (double)v->divisor / (v->divisor - 1) : 1;
-    /* the window costs the same however many pixels the draft has */
+    /* the window costs the same however many pixels the preview has */
     const double of_pixels = seconds - v->show_seconds - (v->moves ? 1e-3 * t->surfaces : 0);
     const double expected = seconds + of_pixels * (finer * finer - 1);
     const int before = v->divisor;
     v->frame_seconds = v->frame_seconds > 0 ? 0.7 * v->frame_seconds + 0.3 * seconds : seconds;
-    /* twice too slow: a first frame of its size, or of a camera that has come to rest, is slower */
+    /* only if two frames are too slow: the first frame of a size, or after the camera has stopped,
+     * takes longer */
     if (fmin(seconds, v->slow_seconds) > MOVING_SECONDS * 1.1 && v->divisor < DIVISOR_MAX)
         v->divisor++;
     else if (v->divisor > 1 && expected < 0.9 * MOVING_SECONDS)
@@ -62,16 +63,16 @@ static void adapt(viewer *v, double seconds) {
     v->slow_seconds = v->divisor == before ? seconds : 0;
 }
 
-/* Draws what has changed, or refines what has not; false if there was nothing to do. */
-static bool draw(viewer *v, bool *worked, cli_error *error) {
+/* Draws changed settings, or refines the image; *worked is false if there was nothing to do. */
+static bool draw(viewer *v, bool *worked, base_error *error) {
     const bool changed = v->fresh || memcmp(v->shown, v->drawn, view_settings_size(v->shown)) != 0;
-    const bool draft = changed && !view_steps_time(v) && v->divisor > 1 && v->good->width > 0;
+    const bool preview = changed && !view_steps_time(v) && v->divisor > 1 && v->good->width > 0;
     *worked = false;
     if (changed) {
         v->moves = memcmp(&v->shown->camera, &v->drawn->camera, sizeof v->drawn->camera) != 0;
         memcpy(v->drawn, v->shown, view_settings_size(v->shown));
         v->changed_at = v->clock;
-        v->sample = draft ? -1 : 0;
+        v->sample = preview ? -1 : 0;
     } else if (v->sample >= v->drawn->samples - 1 ||
                (!view_steps_time(v) && v->clock < v->changed_at + STILL_SECONDS)) {
         return true;
@@ -80,15 +81,15 @@ static bool draw(viewer *v, bool *worked, cli_error *error) {
     }
     v->fresh = false;
     *worked = true;
-    if (!(draft
-              ? view_compositor_draft(v->compositor, v->drawn, v->divisor, &v->statistics, error)
+    if (!(preview
+              ? view_compositor_preview(v->compositor, v->drawn, v->divisor, &v->statistics, error)
               : view_compositor_refine(v->compositor, v->drawn, v->sample, &v->statistics, error)))
         return false;
     memcpy(v->good, v->drawn, view_settings_size(v->drawn));
     return true;
 }
 
-/* Whether the drawings over the image have to change; notes what they show then. */
+/* Whether the drawings over the image must change; remembers their new contents. */
 static bool changes_over(viewer *v, const char *announcement) {
     const view_state *s = &v->state;
     drawn_over now;
@@ -105,14 +106,23 @@ static bool changes_over(viewer *v, const char *announcement) {
     return changed;
 }
 
-bool view_draw_frame(viewer *v, bool *worked, cli_error *error) {
+/* Whether another process does the slow work. Tables that will not fit are not made; drawing
+ * reports that. */
+static bool is_baking(viewer *v) {
+    const view_settings *s = v->shown;
+    return s->material_count > 0 &&
+           (view_bakes(&v->baking, s) || view_compositor_fits(v->compositor, s)) &&
+           view_bake(&v->baking, s);
+}
+
+bool view_draw_frame(viewer *v, bool *worked, base_error *error) {
     const double began = view_window_clock();
     const bool first = v->good->width == 0;
     view_shown(&v->state, v->shown);
     const bool waits = !first && !view_steps_time(v);
     const char *slow = waits ? view_compositor_pending(v->compositor, v->shown) : NULL;
-    const bool bakes = slow && view_bake(&v->baking, v->shown);
-    if (bakes) { /* by another process: until it is done nothing looks otherwise */
+    const bool bakes = slow && is_baking(v);
+    if (bakes) { /* until it has finished, shade as before */
         shade_as_before(v, v->shown);
     } else if (slow && !v->waiting) {
         v->waiting = true;
@@ -126,8 +136,8 @@ bool view_draw_frame(viewer *v, bool *worked, cli_error *error) {
     const bool moving = *worked && v->changed_at == v->clock && (!slow || bakes) && !first;
     if (v->state.recording && !view_record_frame(v, error))
         return false;
-    const bool redraw = v->state.wishes.redraw;
-    v->state.wishes.redraw = false;
+    const bool redraw = v->state.requests.redraw;
+    v->state.requests.redraw = false;
     if (!changes_over(v, bakes ? slow : NULL) && !*worked && !redraw)
         return true;
     *worked = true;
@@ -139,7 +149,7 @@ bool view_draw_frame(viewer *v, bool *worked, cli_error *error) {
     return true;
 }
 
-bool view_expose(viewer *v, cli_error *error) {
+bool view_expose(viewer *v, base_error *error) {
     view_shown(&v->state, v->shown);
     return view_compositor_expose(v->compositor, v->shown, &v->state.now.exposure, error);
 }

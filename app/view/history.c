@@ -49,7 +49,7 @@ void view_history_keep(view_history *h, const view_settings *now, const size_t *
         forget(h, 0);
     view_moment *m = calloc(1, size);
     if (!m) {
-        view_history_clear(h); /* undo must not jump over what could not be kept */
+        view_history_clear(h); /* undo must not skip a change that could not be kept */
         return;
     }
     m->material_count = now->material_count;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* keys.c - what every key does, and the help that says so. */
+/* keys.c - the actions of all keys, and their help. */
 #include "app/scene/vector.h"
 #include "app/view/lights.h"
 #include "app/view/panel.h"
@@ -33,7 +33,8 @@ static void change_bands(view_state *s, int step) {
 
 static void change_window(view_state *s, int step) {
     view_shading *shading = shading_here(s);
-    shading->window = (lmp_window)(((int)shading->window + step + LMP_WINDOWS) % LMP_WINDOWS);
+    shading->window =
+        (lmp_window)(((int)shading->window + step + LMP_WINDOW_COUNT) % LMP_WINDOW_COUNT);
 }
 
 static void change_exposure(view_state *s, int thirds) {
@@ -51,10 +52,11 @@ static void change_tone(view_state *s, int step) {
 
 static void expose(view_state *s, int unused) {
     (void)unused;
-    s->wishes.expose = true;
+    s->requests.expose = true;
 }
 
-/* Both sides begin alike, so that the first change shows what it does. */
+/* Splits the image, or joins it again. Both sides begin with the same settings, so that the first
+ * change shows its effect. */
 static void split(view_state *s, int kind) {
     const bool was_whole = s->now.split == GPU_SPLIT_NONE;
     s->now.split = s->now.split == (gpu_split)kind ? GPU_SPLIT_NONE : (gpu_split)kind;
@@ -115,7 +117,7 @@ static const char *const materials[] = { "lambert:0.8",       "phong:50:0.8",   
 static void change_material(view_state *s, int step) {
     const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
     const view_hit hit = view_pick_surface(&ray, s->world);
-    cli_error error;
+    base_error error;
     if (hit.mesh < 0) {
         view_say(s, "Point at an object to change its material");
         return;
@@ -172,7 +174,7 @@ static void toggle_overlay(view_state *s, int unused) {
     s->overlay = !s->overlay;
 }
 
-/* As --framing inside or outside does. */
+/* Switches the framing, as --framing inside and outside do. */
 static void toggle_framing(view_state *s, int unused) {
     (void)unused;
     s->walking = !s->walking;
@@ -193,13 +195,21 @@ static void step_back(view_state *s, int unused) {
         view_say(s, "Ctrl+Q closes the window");
 }
 
-enum { WISH_QUIT, WISH_SHOT, WISH_RECORD, WISH_RELOAD, WISH_RESTART, WISH_FULLSCREEN, WISH_SAVE };
+enum {
+    REQUEST_QUIT,
+    REQUEST_SHOT,
+    REQUEST_RECORD,
+    REQUEST_RELOAD,
+    REQUEST_RESTART,
+    REQUEST_FULLSCREEN,
+    REQUEST_SAVE
+};
 
-static void wish(view_state *s, int what) {
-    bool *const wishes[] = { &s->wishes.quit,   &s->wishes.shot,    &s->wishes.record,
-                             &s->wishes.reload, &s->wishes.restart, &s->wishes.fullscreen,
-                             &s->wishes.save };
-    *wishes[what] = true;
+static void request(view_state *s, int what) {
+    bool *const requests[] = { &s->requests.quit,   &s->requests.shot,    &s->requests.record,
+                               &s->requests.reload, &s->requests.restart, &s->requests.fullscreen,
+                               &s->requests.save };
+    *requests[what] = true;
 }
 
 const view_key view_keys[] = {
@@ -238,7 +248,7 @@ const view_key view_keys[] = {
     { "Ctrl+Z", "Ctrl Z  Ctrl Y", "undo, redo lights and materials", view_undo, -1 },
     { "Ctrl+Y", NULL, NULL, view_undo, 1 },
     { "Ctrl+O", "Ctrl O, drop a file", "scene, lights, material", view_ask_file, 0 },
-    { "Ctrl+S", "Ctrl S", "save the lights", wish, WISH_SAVE },
+    { "Ctrl+S", "Ctrl S", "save the lights", request, REQUEST_SAVE },
 
     { NULL, "Compare", NULL, NULL, 0 },
     { "v", "V", "split; drag the divider", split, GPU_SPLIT_DIVIDED },
@@ -274,16 +284,16 @@ const view_key view_keys[] = {
     { "b", "B", "back to the start", rewind_time, 0 },
 
     { NULL, "Window", NULL, NULL, 0 },
-    { "F12", "F12  P", "screenshot with its settings", wish, WISH_SHOT },
-    { "p", NULL, NULL, wish, WISH_SHOT },
-    { "r", "R", "record an image sequence", wish, WISH_RECORD },
+    { "F12", "F12  P", "screenshot with its settings", request, REQUEST_SHOT },
+    { "p", NULL, NULL, request, REQUEST_SHOT },
+    { "r", "R", "record an image sequence", request, REQUEST_RECORD },
     { "i", "I", "statistics on, off", toggle_overlay, 0 },
-    { "F5", "F5", "read the scene again", wish, WISH_RELOAD },
-    { "Shift+F5", "Shift F5", "start the graphics again", wish, WISH_RESTART },
-    { "F11", "F11", "full screen", wish, WISH_FULLSCREEN },
+    { "F5", "F5", "read the scene again", request, REQUEST_RELOAD },
+    { "Shift+F5", "Shift F5", "start the graphics again", request, REQUEST_RESTART },
+    { "F11", "F11", "full screen", request, REQUEST_FULLSCREEN },
     { "F1", "F1  ?", "this help", toggle_help, 0 },
     { "?", NULL, NULL, toggle_help, 0 },
     { "Escape", "Escape", "close the help, select nothing", step_back, 0 },
-    { "Ctrl+Q", "Ctrl Q", "quit", wish, WISH_QUIT },
+    { "Ctrl+Q", "Ctrl Q", "quit", request, REQUEST_QUIT },
     { NULL, NULL, NULL, NULL, 0 },
 };

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* labels.c - what is drawn over the image: statistics, help, messages, the selected light's ring.
- */
+/* labels.c - the drawings over the image: statistics, help, messages, the selected light's ring. */
 #include "app/view/overlay.h"
 #include "app/view/panel.h"
 #include "app/view/viewer.h"
@@ -42,7 +41,7 @@ static void describe_shading(const view_shading *shading, char *text, size_t siz
              shading->window == LMP_WINDOW_NONE ? "" : lmp_sh_window_name(shading->window));
 }
 
-/* "30, number 4: sphere, radius 0.2" */
+/* Describes the lights, such as "30, number 4: sphere, radius 0.2". */
 static void describe_lights(const view_state *s, char *text, size_t size) {
     int used = snprintf(text, size, "%zu", s->now.light_count);
     if (s->selected < 0)
@@ -91,7 +90,7 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
     return count;
 }
 
-/* Uploads a drawing as `index` and notes its size. */
+/* Uploads a drawing as `index` and stores its size. */
 static void upload(viewer *v, int index, view_drawing *drawing) {
     if (drawing->pixels) {
         gpu_screen_upload(view_compositor_screen(v->compositor), index, drawing->width,
@@ -107,7 +106,7 @@ static void put(viewer *v, int index, int x, int y) {
     gpu_screen_draw(view_compositor_screen(v->compositor), &layout, index, x, y);
 }
 
-/* Whether a label has to be drawn again to say this in that room. */
+/* Whether a label must be drawn again for this text and this room. */
 static bool outdated(label *l, const char *text, double scale, int room) {
     if (l->width > 0 && strcmp(l->text, text) == 0 && l->scale == scale && l->room == room)
         return false;
@@ -129,7 +128,7 @@ static void draw_panel(viewer *v, double scale) {
     put(v, DRAWING_PANEL, (int)(12 * scale), (int)(12 * scale));
 }
 
-/* A line whose box is centerd at x, its lower end at y. */
+/* Draws a line whose box is centered at x, with its lower edge at y. */
 static void draw_line(viewer *v, int index, const char *text, double scale, int room, double x,
                       double y) {
     label *l = &v->labels[index];
@@ -151,8 +150,9 @@ static void draw_sides(viewer *v, double scale) {
         describe_shading(&d->shading[side], text, sizeof text);
         /* its width is known once it is drawn */
         draw_line(v, index, text, scale, d->width, -d->width, 0);
-        const double half = 0.5 * v->labels[index].width + gap;
-        put(v, index, (int)(middle + (side ? half : -half) - 0.5 * v->labels[index].width),
+        const double half_width = 0.5 * v->labels[index].width + gap;
+        put(v, index,
+            (int)(middle + (side ? half_width : -half_width) - 0.5 * v->labels[index].width),
             (int)(d->height - 14 * scale - v->labels[index].height));
     }
 }
@@ -167,7 +167,7 @@ static void draw_ring(viewer *v, double scale) {
     if (!scene_light_has(light, SCENE_LIGHT_POSITION) ||
         !view_project(&d->camera, d->width, d->height, light->emitter.position, &x, &y, &pixels))
         return;
-    const double radius = (double)light->emitter.radius * pixels + 5 * scale;
+    const double radius = (double)scene_light_extent(&light->emitter) * pixels + 5 * scale;
     if (!(radius < d->width))
         return;
     char text[32];
@@ -190,7 +190,7 @@ static void draw_help(viewer *v, double scale) {
     put(v, DRAWING_HELP, (v->drawn->width - l->width) / 2, (v->drawn->height - l->height) / 2);
 }
 
-/* The panel for values, in the upper right corner. */
+/* Draws the panel of values, in the upper right corner. */
 static void draw_values(viewer *v, double scale) {
     view_row rows[VIEW_PANEL_ROWS];
     const int count = view_panel_rows(&v->state, rows);

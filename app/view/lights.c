@@ -10,7 +10,7 @@
 #define POWER_STEP     1.25f
 #define HUE_STEP       (1.0f / 12)
 #define NEW_IRRADIANCE 0.4f /* that a new light gives the scene's bounding sphere */
-#define FRAMED_RADIUS  0.1f /* at least, of the scene's diagonal */
+#define FRAMED_RADIUS  0.1f /* of the scene's diagonal, at least */
 
 static float scene_diagonal(const scene *world) {
     return fmaxf(vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum))), 1e-6f);
@@ -22,15 +22,16 @@ static bool is_changed(const view_state *s, size_t index) {
 
 /* --- size ------------------------------------------------------------------------------------- */
 
-/* A sphere's power stays: a larger one is a dimmer one. Cones and caps widen. */
+/* Resizes a light. The power of spheres and areas stays, so a larger one is dimmer; cones and caps
+ * widen. */
 static void grow(scene_light *light, float by) {
     lmp_light *e = &light->emitter;
-    const float radius = e->radius * by;
-    if (scene_light_has(light, SCENE_LIGHT_RADIUS) && radius > 1e-12f && radius < 1e12f) {
-        e->radius = radius;
-        e->radiance = (lmp_rgb) { fminf(e->radiance.r / (by * by), SCENE_COLOR_MAX),
-                                  fminf(e->radiance.g / (by * by), SCENE_COLOR_MAX),
-                                  fminf(e->radiance.b / (by * by), SCENE_COLOR_MAX) };
+    const float extent = scene_light_extent(e) * by;
+    if (extent > 1e-12f && extent < 1e12f) {
+        scene_light_resize(e, by);
+        e->radiance = (lmp_rgb) { fminf(e->radiance.r, SCENE_COLOR_MAX),
+                                  fminf(e->radiance.g, SCENE_COLOR_MAX),
+                                  fminf(e->radiance.b, SCENE_COLOR_MAX) };
     }
     for (const scene_light_member *m = scene_light_kinds[e->kind].members; m->name; m++)
         if (m->type == SCENE_LIGHT_ANGLE) {
@@ -67,7 +68,8 @@ static float brightest(const float color[3]) {
     return fmaxf(color[0], fmaxf(color[1], color[2]));
 }
 
-/* A part of the hue circle around the gray axis: red, green and blue rotate into each other. */
+/* Rotates a color by a fraction of the hue circle around the gray axis, on which red, green and
+ * blue follow each other. */
 static void rotate_hue(float color[3], float by) {
     const float angle = 2 * PI * by, c = cosf(angle), s = sinf(angle), root = sqrtf(1.0f / 3);
     const float mean = (color[0] + color[1] + color[2]) / 3;
@@ -108,7 +110,7 @@ void view_select_light(view_state *s, int step) {
             s->selected < 0 ? (step > 0 ? 0 : count - 1) : (s->selected + step + count) % count;
 }
 
-/* Whether a light is selected; says so if none is. */
+/* Whether a light is selected; shows a message if none is. */
 static bool is_selected(view_state *s) {
     if (s->selected < 0)
         view_say(s, "Select a light first: click it, or press Tab");
@@ -126,8 +128,8 @@ static view_ray pointer_ray(const view_state *s) {
                             outside ? 0.5 * s->now.height : s->y);
 }
 
-/* As the selected one, if that has a position; else a sphere. Over the surface under the pointer,
- * or as far away as the camera's target. */
+/* Adds a light of the selected one's kind if that has a position, else a sphere: over the surface
+ * under the pointer, or at the distance of the camera's target. */
 void view_add_light(view_state *s, int unused) {
     (void)unused;
     if (s->now.light_count == SCENE_LIGHTS_MAX) {
@@ -143,7 +145,7 @@ void view_add_light(view_state *s, int unused) {
     const float distance = hit.mesh >= 0 ? hit.distance : reach;
     lmp_vec3 position = vec_add(ray.from, vec_scale(ray.direction, distance));
     if (hit.mesh >= 0)
-        position = vec_add(position, vec_scale(hit.normal, 3 * light.emitter.radius));
+        position = vec_add(position, vec_scale(hit.normal, 3 * scene_light_extent(&light.emitter)));
     light.emitter.position = position;
     s->selected = (int)s->now.light_count;
     s->numbers[s->now.light_count] = s->next_number++;
@@ -172,9 +174,9 @@ void view_change_kind(view_state *s, int step) {
         return;
     lmp_light *light = &s->now.lights[s->selected].emitter;
     const lmp_vec3 position = light->position;
-    const int kind = ((int)light->kind + step + LMP_LIGHT_KINDS) % LMP_LIGHT_KINDS;
+    const int kind = ((int)light->kind + step + SCENE_LIGHT_KIND_COUNT) % SCENE_LIGHT_KIND_COUNT;
     *light = new_light(s, (lmp_light_kind)kind);
-    light->position = position; /* for when it has one again */
+    light->position = position; /* kept for a kind that has a position again */
     s->drag = VIEW_DRAG_NONE;
     s->lights_edited = true;
     view_say(s, "Light %d: %s", s->selected, scene_light_kinds[kind].name);
@@ -204,7 +206,7 @@ void view_frame_light(view_state *s, int unused) {
     if (s->selected < 0 || !scene_light_has(&s->now.lights[s->selected], SCENE_LIGHT_POSITION))
         return;
     const lmp_light *light = &s->now.lights[s->selected].emitter;
-    const float radius =
-        light->radius > 0 ? 10 * light->radius : FRAMED_RADIUS * scene_diagonal(s->world);
+    const float extent = scene_light_extent(light),
+                radius = extent > 0 ? 10 * extent : FRAMED_RADIUS * scene_diagonal(s->world);
     view_frame(&s->now.camera, light->position, radius, (float)s->now.width / (float)s->now.height);
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* lights.h - what keys do to lights: to the selected one, or to all of them. */
+/* lights.h - what keys do to lights: to the selected one, or to all. */
 #ifndef LAMPION_VIEW_LIGHTS_H
 #define LAMPION_VIEW_LIGHTS_H
 
 #include "app/view/state.h"
 
-/* sign > 0: larger, brighter, further around the circle of hues, paler. */
+/* Change lights. sign > 0: larger, brighter, further around the hue circle, paler. */
 void view_resize_lights(view_state *state, int sign);
 void view_brighten_lights(view_state *state, int sign);
 void view_recolor_lights(view_state *state, int sign);
@@ -13,12 +13,12 @@ void view_fade_lights(view_state *state, int sign);
 
 void view_select_light(view_state *state, int step);
 
-/* A new one over the surface under the pointer; the next two act on the selected one alone. */
+/* Adds a light over the surface under the pointer; the next two act on the selected light only. */
 void view_add_light(view_state *state, int unused);
 void view_remove_light(view_state *state, int unused);
 void view_change_kind(view_state *state, int step);
 
-/* A spot is aimed at the point under the pointer, what shines from afar comes from there. */
+/* Aims a spot light at the point under the pointer, or lets a distant light come from there. */
 void view_direct_light(view_state *state, int unused);
 
 void view_frame_light(view_state *state, int unused);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/lobes.h"
 
-#include "app/bake/bake.h"
+#include "app/scene/bake.h"
 
 static int find(const view_lobes *lobes, const view_shading *shading) {
     for (int i = 0; i < VIEW_LOBES; i++)
@@ -16,7 +16,7 @@ bool view_lobes_have(const view_lobes *lobes, const view_shading *shading) {
 }
 
 const lmp_preintegrated_lobe *view_lobes_get(view_lobes *lobes, const view_shading *shading,
-                                             cli_error *error) {
+                                             base_error *error) {
     int at = find(lobes, shading);
     if (at < 0) {
         lmp_preintegrated_lobe *lobe = NULL;

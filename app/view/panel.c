@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/panel.h"
-#include "app/file/file.h"
+#include "app/base/file_json.h"
 #include "app/scene/world.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,15 +20,21 @@ static int count_light(const view_state *s) {
     return count;
 }
 
-/* Another quantity is proportional to the value that is made from it. */
+/* Describes a light's row. A member that is another quantity is proportional to the value computed
+ * from it. */
 static void describe_light(const view_state *s, int row, view_row *to) {
     const scene_light_member *m = &light_members(s)[row];
     lmp_light light = s->now.lights[s->selected].emitter;
     const float *value = scene_light_value(&light, m);
-    const float unit = m->convert ? m->convert(1, light.radius) : 1;
+    const float unit = m->convert ? m->convert(&light, 1) : 1;
     size_t used = 0;
     snprintf(to->name, sizeof to->name, "%s", m->name);
-    for (int k = 0; k < scene_light_count(m); k++) {
+    if (m->type == SCENE_LIGHT_CORNERS)
+        snprintf(to->value, sizeof to->value, "%d", light.corner_count);
+    if (m->type == SCENE_LIGHT_FLAG)
+        snprintf(to->value, sizeof to->value, "%s",
+                 *scene_light_flag(&light, m) ? "true" : "false");
+    for (int k = 0; m->type != SCENE_LIGHT_CORNERS && k < scene_light_count(&light, m); k++) {
         scene_world_text text;
         scene_print_world(m->type == SCENE_LIGHT_POSITION ? s->now.origin[k] : 0.0, value[k] / unit,
                           5, text);
@@ -38,36 +43,37 @@ static void describe_light(const view_state *s, int row, view_row *to) {
     }
 }
 
-/* The light as JSON, but for what sets the same value as one member, which is `typed`: "0.2", or
- * "1, 2, 3". NULL if that is no value. */
-static cJSON *parse_light(const scene_light *light, const double origin[3],
-                          const scene_light_member *member, const char *typed, cli_error *error) {
+/* Returns the light as JSON, with one member replaced by the value `typed`, such as "0.2" or "1, 2,
+ * 3", and without other members that set the same value; NULL if `typed` is not a value. */
+static json_t *parse_light(const scene_light *light, const double origin[3],
+                           const scene_light_member *member, const char *typed, base_error *error) {
     char numbers[VIEW_TYPED_SIZE + 2];
+    json_error_t wrong;
     snprintf(numbers, sizeof numbers, strchr(typed, ',') ? "[%s]" : "%s", typed);
-    if (file_json_wrong(numbers, strlen(numbers))) {
-        cli_fail(error, typed, "is neither a number nor three numbers separated by commas");
+    json_t *const value = file_json_load(numbers, strlen(numbers), &wrong);
+    if (!value) {
+        base_fail(error, typed, "is neither a number nor three numbers separated by commas");
         return NULL;
     }
-    cJSON *object = scene_light_to_json(light, origin);
+    json_t *object = scene_light_to_json(light, origin);
     for (const scene_light_member *m = scene_light_kinds[light->emitter.kind].members; m->name; m++)
         if (m->offset == member->offset)
-            cJSON_DeleteItemFromObjectCaseSensitive(object, m->name);
-    cJSON_AddRawToObject(object, member->name, numbers);
-    char *text = file_json_text(object, false, NULL, error);
-    cJSON *parsed = text ? file_parse_json(NULL, text, strlen(text), error) : NULL;
-    free(text);
-    return parsed;
+            json_object_del(object, m->name);
+    object = file_json_with(object, member->name, value);
+    if (!object)
+        base_fail(error, NULL, "out of memory");
+    return object;
 }
 
-/* A value is taken or refused as in a file. */
-static bool apply_light(view_state *s, int row, const char *typed, cli_error *error) {
+/* Sets a member to the typed value, which is accepted or rejected as in a file. */
+static bool apply_light(view_state *s, int row, const char *typed, base_error *error) {
     scene_light *light = &s->now.lights[s->selected], changed;
     scene_light_error wrong;
-    cJSON *object = parse_light(light, s->now.origin, &light_members(s)[row], typed, error);
+    json_t *object = parse_light(light, s->now.origin, &light_members(s)[row], typed, error);
     const bool ok = object && scene_light_from_json(object, s->now.origin, &changed, &wrong);
     if (object && !ok)
-        cli_fail(error, "the light", "%s", wrong.text + strspn(wrong.text, ". "));
-    cJSON_Delete(object);
+        base_fail(error, "the light", "%s", wrong.text + strspn(wrong.text, ". "));
+    json_decref(object);
     if (!ok)
         return false;
     *light = changed;
@@ -88,7 +94,7 @@ static void describe_material(const view_state *s, int row, view_row *to) {
              given ? given : "as in the scene");
 }
 
-static bool apply_material(view_state *s, int row, const char *typed, cli_error *error) {
+static bool apply_material(view_state *s, int row, const char *typed, base_error *error) {
     return view_replace_material(s, s->world->materials[row].name, typed[0] ? typed : NULL, error);
 }
 
@@ -105,7 +111,7 @@ static void describe_open(const view_state *s, int row, view_row *to) {
     snprintf(to->value, sizeof to->value, "%.*s", (int)sizeof to->value - 1, s->now.scene);
 }
 
-static bool apply_open(view_state *s, int row, const char *typed, cli_error *error) {
+static bool apply_open(view_state *s, int row, const char *typed, base_error *error) {
     (void)row;
     s->panel.kind = VIEW_PANEL_CLOSED;
     return view_take_file(s, typed, error);
@@ -117,7 +123,7 @@ static const struct {
     char title[sizeof((view_row *)NULL)->name];
     int (*count)(const view_state *state);
     void (*describe)(const view_state *state, int row, view_row *to);
-    bool (*apply)(view_state *state, int row, const char *typed, cli_error *error);
+    bool (*apply)(view_state *state, int row, const char *typed, base_error *error);
 } panels[VIEW_PANELS] = {
     [VIEW_PANEL_LIGHT] = { "Light", count_light, describe_light, apply_light },
     [VIEW_PANEL_MATERIALS] = { "Materials", count_materials, describe_material, apply_material },
@@ -145,7 +151,7 @@ void view_ask_file(view_state *s, int unused) {
 }
 
 static void apply(view_state *s) {
-    cli_error error;
+    base_error error;
     char typed[VIEW_TYPED_SIZE];
     memcpy(typed, s->panel.typed, sizeof typed);
     s->panel.typing = false;
@@ -166,7 +172,7 @@ static void type_text(view_panel *p, const char *text) {
         strcpy(p->typed + used, text);
 }
 
-/* A whole letter of UTF-8. */
+/* Erases the last character, whole in UTF-8. */
 static void erase(view_panel *p) {
     begin_typing(p);
     size_t used = strlen(p->typed);
@@ -181,7 +187,7 @@ static int least(int a, int b) {
     return a < b ? a : b;
 }
 
-/* Keys with names of more than a letter are no text. */
+/* Whether a key is text: keys with names of more than one character are not. */
 static bool is_text(const char *key) {
     const unsigned char first = (unsigned char)key[0];
     return first >= 0x80 || (first > ' ' && key[1] == '\0');
@@ -192,7 +198,7 @@ bool view_panel_take_key(view_state *s, const char *key) {
     if (p->kind == VIEW_PANEL_CLOSED)
         return false;
     const int count = panels[p->kind].count(s);
-    if (count == 0) { /* its light is gone */
+    if (count == 0) { /* its light has been removed */
         open_panel(s, VIEW_PANEL_CLOSED, 0);
         return false;
     }
@@ -216,7 +222,7 @@ bool view_panel_take_key(view_state *s, const char *key) {
     return true;
 }
 
-/* Of what is longer than its room the end, where one types. */
+/* Describes the typed text; if it is too long, its end, where the cursor is. */
 static void describe_typed(const char *typed, view_row *to) {
     const int used = (int)strlen(typed), room = (int)sizeof to->value - 4;
     const char *shown = used > room ? typed + used - room : typed;
@@ -227,17 +233,17 @@ int view_panel_rows(const view_state *s, view_row rows[VIEW_PANEL_ROWS]) {
     const view_panel *p = &s->panel;
     const int all = p->kind == VIEW_PANEL_CLOSED ? 0 : panels[p->kind].count(s);
     const int shown = least(all, VIEW_PANEL_ROWS - 1), chosen = least(p->row, all - 1);
-    const int half = chosen - shown / 2, first = half < 0 ? 0 : least(half, all - shown);
+    const int top = chosen - shown / 2, first = top < 0 ? 0 : least(top, all - shown);
     if (all == 0)
         return 0;
     memset(rows, 0, VIEW_PANEL_ROWS * sizeof *rows);
     snprintf(rows[0].name, sizeof rows[0].name, "%s", panels[p->kind].title);
     for (int i = 0; i < shown; i++) {
-        view_row *row = &rows[1 + i];
-        panels[p->kind].describe(s, first + i, row);
-        row->chosen = first + i == chosen;
-        if (row->chosen && p->typing)
-            describe_typed(p->typed, row);
+        view_row *to = &rows[1 + i];
+        panels[p->kind].describe(s, first + i, to);
+        to->chosen = first + i == chosen;
+        if (to->chosen && p->typing)
+            describe_typed(p->typed, to);
     }
     return 1 + shown;
 }

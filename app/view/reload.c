@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* reload.c - the viewer's scene, read again when its file changes. */
-#include "app/render/renderer.h"
+/* reload.c - reloads the viewer's scene when its file changes. */
+#include "app/render/renderer/renderer.h"
 #include "app/view/viewer.h"
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define WATCH_SECONDS 0.5 /* between looks at the scene file */
+#define WATCH_SECONDS 0.5 /* between checks of the scene file */
 
 version view_version_of(const char *path) {
     struct stat status;
@@ -22,10 +22,10 @@ static bool same_version(version a, version b) {
 }
 
 scene *view_load_scene(const char *name, const scene_options *load,
-                       const scene_lights_options *lights, cli_error *error) {
+                       const scene_lights_options *lights, base_error *error) {
     scene *world = calloc(1, sizeof *world);
     if (!world) {
-        cli_fail(error, NULL, "out of memory");
+        base_fail(error, NULL, "out of memory");
         return NULL;
     }
     if (scene_load(name, load, world, error) && scene_apply_lights(world, lights, error))
@@ -41,7 +41,7 @@ void view_free_scene(scene *world) {
     free(world);
 }
 
-/* Materials that the scene has not any more are not replaced any more. */
+/* Drops replacements of materials that the scene no longer has. */
 static void drop_lost_materials(view_state *state) {
     for (int i = state->now.material_count - 1; i >= 0; i--) {
         char name[SCENE_NAME_SIZE] = "";
@@ -54,20 +54,21 @@ static void drop_lost_materials(view_state *state) {
     }
 }
 
-/* Rays run on the CPU: a GPU would wait for them. */
+/* Whether shadows suit the scene on its devices: rays run on the CPU, and a GPU would wait for
+ * them. */
 static bool suits_shadows(const scene *world, const char *surroundings) {
     const bool studio = strcmp(surroundings, "studio") == 0;
     return !render_finds_gpu() && environment_suits_shadows(studio, world);
 }
 
-bool view_choose_environment(viewer *v, cli_error *error) {
+bool view_choose_environment(viewer *v, base_error *error) {
     const view_options *o = v->options;
     view_settings *now = &v->state.now;
     if (o->keep_lights && !v->another)
         return true;
     const char *name = environment_choose(&o->environment, v->world);
     if (strlen(name) >= sizeof now->environment)
-        return cli_fail(error, name, "is too long a name");
+        return base_fail(error, name, "is too long a name");
     strcpy(now->environment, name);
     now->environment_rotation = o->environment.rotation;
     now->environment_strength = o->environment.strength;
@@ -83,7 +84,7 @@ void view_show_title(viewer *v) {
     view_window_title(v->window, title);
 }
 
-/* Draws the new scene from now on. */
+/* Replaces the scene that is drawn. */
 static void replace_world(viewer *v, scene *world, view_compositor *compositor) {
     view_compositor_destroy(v->compositor);
     view_free_scene(v->world);
@@ -95,7 +96,7 @@ static void replace_world(viewer *v, scene *world, view_compositor *compositor) 
 }
 
 static void begin_other(viewer *v) {
-    cli_error error;
+    base_error error;
     v->another = true;
     v->seen = v->candidate = view_version_of(v->state.now.scene);
     view_show_title(v);
@@ -108,7 +109,7 @@ void view_reload(viewer *v) {
     const view_options *o = v->options;
     const bool other = v->state.other[0];
     const char *name = other ? v->state.other : v->state.now.scene;
-    cli_error error;
+    base_error error;
     scene_options load = o->load;
     load.variant = other ? NULL : view_variant(&v->state.now);
     scene *world = view_load_scene(name, &load, other || v->another ? &own : &o->lights, &error);
@@ -137,5 +138,5 @@ void view_watch(viewer *v) {
     if (same_version(now, v->seen) || !rests || now.size < 0)
         return;
     v->seen = now;
-    v->state.wishes.reload = true;
+    v->state.requests.reload = true;
 }

@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/renderer.h"
+#include "app/render/renderer/renderer.h"
 #include "app/view/compositor.h"
 #include "app/view/view.h"
 
-/* Opens OpenGL where a side needs it; without it *context stays zero, and the CPU draws. */
+/* Opens OpenGL if a side requires it; otherwise *context stays zero, and the CPU draws. */
 static bool open_context(const view_settings *settings, const char *device, gpu_context *context,
-                         cli_error *error) {
+                         base_error *error) {
     if (!device && !render_finds_gpu() && view_compositor_does_without(settings))
         return true;
     return gpu_context_create(device, context, error);
 }
 
-bool view_render(view_settings *settings, const char *device, const char *path, cli_error *error) {
+bool view_render(view_settings *settings, const char *device, const char *path, base_error *error) {
     scene world;
     gpu_context context = { .display = NULL };
     view_compositor *compositor = NULL;
     view_statistics statistics;
-    const scene_options load = { .up = settings->up, .variant = view_variant(settings) };
+    const scene_options load = { .up = settings->up,
+                                 .leaves = settings->leaves,
+                                 .variant = view_variant(settings) };
     if (!image_check_path(path, error) || !scene_load(settings->scene, &load, &world, error))
         return false;
     view_settings_rebase(settings, world.origin);

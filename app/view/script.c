@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/script.h"
-#include "app/file/file.h"
+#include "app/base/file.h"
+#include "app/base/number.h"
 #include "app/image/image.h"
 
 #include <math.h>
@@ -16,7 +17,7 @@ enum { WORDS_MAX = 5 };
 typedef struct words {
     const char *text[WORDS_MAX];
     int count;
-    double numbers[WORDS_MAX]; /* of words that are numbers */
+    double numbers[WORDS_MAX]; /* the values of words that are numbers */
     bool is_number[WORDS_MAX];
 } words;
 
@@ -24,7 +25,7 @@ static bool takes_the_rest(const char *what) {
     return strcmp(what, "drop") == 0 || strcmp(what, "shot") == 0 || strcmp(what, "type") == 0;
 }
 
-/* Cuts a line at blanks; the last word of drop, shot and type may hold some. */
+/* Splits a line at blanks; the last word of drop, shot and type may contain some. */
 static void split_words(char *line, words *w) {
     *w = (words) { .count = 0 };
     for (size_t length = strlen(line); length > 0 && strchr(" \t", line[length - 1]); length--)
@@ -33,7 +34,7 @@ static void split_words(char *line, words *w) {
         const bool rest = w->count == 2 && takes_the_rest(w->text[1]);
         char *end = rest ? at + strlen(at) : at + strcspn(at, " \t");
         w->text[w->count] = at;
-        w->is_number[w->count] = cli_number(at, (size_t)(end - at), &w->numbers[w->count]);
+        w->is_number[w->count] = number_read(at, (size_t)(end - at), &w->numbers[w->count]);
         w->count++;
         at = end + strspn(end, " \t");
         *end = '\0';
@@ -57,7 +58,7 @@ static bool find_button(const char *name, view_button *button) {
     return false;
 }
 
-/* The event of the words after the time; false if they make none. */
+/* Reads the event after the time; returns false if the words are not an event. */
 static bool read_event(const words *w, view_script_line *line) {
     view_event *e = &line->event;
     const char *what = w->text[1];
@@ -103,7 +104,7 @@ static bool read_event(const words *w, view_script_line *line) {
     return false;
 }
 
-static bool read_lines(const char *path, char *text, view_script *script, cli_error *error) {
+static bool read_lines(const char *path, char *text, view_script *script, base_error *error) {
     int number = 0;
     double before = 0;
     for (char *line = text, *next; line; line = next) {
@@ -119,24 +120,24 @@ static bool read_lines(const char *path, char *text, view_script *script, cli_er
         view_script_line *to = &script->lines[script->count];
         if (w.count < 2 || !w.is_number[0] || !(w.numbers[0] >= before) ||
             !(w.numbers[0] <= SECONDS_MAX))
-            return cli_fail(
+            return base_fail(
                 error, path,
                 "line %d is not an event: SECONDS, not less than before, up to 1e6, then "
                 "what happens",
                 number);
         to->seconds = before = w.numbers[0];
         if (!read_event(&w, to))
-            return cli_fail(error, path, "line %d: %s is not understood as it is written", number,
-                            w.text[1]);
+            return base_fail(error, path, "line %d: %s is not understood as it is written", number,
+                             w.text[1]);
         script->count++;
     }
-    /* texts do not move any more */
+    /* texts have their final addresses now */
     for (size_t i = 0; i < script->count; i++)
         script->lines[i].event.text = script->lines[i].text;
     return true;
 }
 
-bool view_script_read(const char *path, view_script *script, cli_error *error) {
+bool view_script_read(const char *path, view_script *script, base_error *error) {
     void *data;
     size_t size, lines = 1;
     *script = (view_script) { .count = 0 };
@@ -145,10 +146,10 @@ bool view_script_read(const char *path, view_script *script, cli_error *error) {
     char *text = data;
     for (size_t i = 0; i < size; i++)
         lines += text[i] == '\n';
-    bool ok = strlen(text) == size || cli_fail(error, path, "is not text");
+    bool ok = strlen(text) == size || base_fail(error, path, "is not text");
     /* an event has at least "0 key m" */
     script->lines = calloc(lines < size / 7 + 1 ? lines : size / 7 + 1, sizeof *script->lines);
-    ok = ok && (script->lines || cli_fail(error, path, "out of memory")) &&
+    ok = ok && (script->lines || base_fail(error, path, "out of memory")) &&
          read_lines(path, text, script, error);
     free(data);
     if (!ok)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* script.h - a file of timed events (docs/viewer.md), for demonstrations that repeat. */
+/* script.h - files of timed events (docs/viewer.md), for reproducible demonstrations. */
 #ifndef LAMPION_VIEW_SCRIPT_H
 #define LAMPION_VIEW_SCRIPT_H
 
@@ -11,15 +11,15 @@ typedef struct view_script_line {
     double seconds;
     view_script_kind kind;
     view_event event;
-    char text[VIEW_PATH_SIZE]; /* what event.text points at; the file of a shot */
+    char text[VIEW_PATH_SIZE]; /* the text that event.text points to, or the file of a shot */
 } view_script_line;
 
 typedef struct view_script {
-    view_script_line *lines; /* by rising time */
+    view_script_line *lines; /* in ascending order of time */
     size_t count;
 } view_script;
 
-bool view_script_read(const char *path, view_script *script, cli_error *error);
+bool view_script_read(const char *path, view_script *script, base_error *error);
 void view_script_free(view_script *script);
 
 #endif

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/settings.h"
-#include "app/file/file.h"
+#include "app/base/file.h"
+#include "app/base/file_json.h"
 #include "app/image/image.h"
-#include "app/material/material.h"
+#include "app/scene/material.h"
+#include "app/scene/shot.h"
 #include "app/scene/vector.h"
 #include "app/scene/world.h"
 
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -68,98 +69,89 @@ void view_settings_rebase(view_settings *s, const double origin[3]) {
 
 /* --- to JSON ---------------------------------------------------------------------------------- */
 
-/* Told where it is not 0: what is in the world then becomes the same again to the bit. */
-static void add_origin(cJSON *root, const double origin[3]) {
-    if (scene_origin_is_0(origin))
-        return;
-    cJSON *array = cJSON_AddArrayToObject(root, "origin");
-    for (int k = 0; k < 3; k++) {
-        char text[32];
-        snprintf(text, sizeof text, "%.17g", origin[k]);
-        cJSON_AddItemToArray(array, cJSON_CreateRaw(text));
-    }
-}
-
-static void add_camera(cJSON *root, const view_settings *s) {
+static json_t *camera_to_json(const view_settings *s) {
     const scene_camera *camera = &s->camera;
-    cJSON *object = cJSON_AddObjectToObject(root, "camera");
-    scene_add_world(object, "eye", s->origin, camera->eye);
-    scene_add_world(object, "target", s->origin, camera->target);
-    file_json_add_floats(object, "up", camera->up, 3);
-    file_json_add_floats(object, "fov", &camera->fov, 1);
-    if (camera->height > 0)
-        file_json_add_floats(object, "height", &camera->height, 1);
+    json_t *object =
+        json_pack("{s:o, s:o, s:o, s:o}", "eye", scene_world_to_json(s->origin, camera->eye),
+                  "target", scene_world_to_json(s->origin, camera->target), "up",
+                  file_json_floats(camera->up, 3), "fov", file_json_float(camera->fov));
+    return camera->height > 0 ? file_json_with(object, "height", file_json_float(camera->height))
+                              : object;
 }
 
-static void add_shading(cJSON *array, const view_shading *shading) {
-    cJSON *object = cJSON_CreateObject();
-    cJSON_AddStringToObject(object, "method", method_table[shading->method].name);
-    cJSON_AddNumberToObject(object, "bands", shading->bands);
-    cJSON_AddStringToObject(object, "window", lmp_sh_window_name(shading->window));
-    cJSON_AddItemToArray(array, object);
+static json_t *shading_to_json(const view_shading *shading) {
+    return json_pack("{s:s, s:i, s:s}", "method", method_table[shading->method].name, "bands",
+                     shading->bands, "window", lmp_sh_window_name(shading->window));
 }
 
-cJSON *view_settings_to_json(const view_settings *s) {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "scene", s->scene);
-    if (s->up != SCENE_UP_Y)
-        cJSON_AddStringToObject(root, "up", scene_up_names[s->up]);
-    if (s->variant[0])
-        cJSON_AddStringToObject(root, "variant", s->variant);
-    cJSON_AddNumberToObject(root, "width", s->width);
-    cJSON_AddNumberToObject(root, "height", s->height);
-    cJSON_AddNumberToObject(root, "samples", s->samples);
-    cJSON_AddBoolToObject(root, "shadows", s->shadows);
-    cJSON_AddStringToObject(root, "ground", environment_ground_names[s->ground]);
-    file_json_add_floats(root, "exposure", &s->exposure, 1);
-    cJSON_AddStringToObject(root, "tone", image_tones[s->tone].name);
-    file_json_add_floats(root, "background", s->background, 3);
-    cJSON *around = cJSON_AddObjectToObject(root, "environment");
-    cJSON_AddStringToObject(around, "name", s->environment);
-    file_json_add_floats(around, "rotation", &s->environment_rotation, 1);
-    file_json_add_floats(around, "strength", &s->environment_strength, 1);
-    add_origin(root, s->origin);
-    add_camera(root, s);
-    cJSON *both = cJSON_AddArrayToObject(root, "looks");
-    add_shading(both, &s->shading[0]);
-    add_shading(both, &s->shading[1]);
-    cJSON_AddStringToObject(root, "split", view_split_names[s->split]);
-    file_json_add_floats(root, "divider", &s->divider, 1);
-    cJSON *materials = cJSON_AddArrayToObject(root, "materials");
+static json_t *environment_to_json(const view_settings *s) {
+    return json_pack("{s:o, s:o, s:o}", "name", file_json_string(s->environment), "rotation",
+                     file_json_float(s->environment_rotation), "strength",
+                     file_json_float(s->environment_strength));
+}
+
+json_t *view_settings_to_json(const view_settings *s) {
+    json_t *materials = json_array(), *lights = json_array();
     for (int i = 0; i < s->material_count; i++)
-        cJSON_AddItemToArray(materials, cJSON_CreateString(s->materials[i]));
-    cJSON *lights = cJSON_AddArrayToObject(root, "lights");
+        materials = file_json_append(materials, file_json_string(s->materials[i]));
     for (size_t i = 0; i < s->light_count; i++)
-        cJSON_AddItemToArray(lights, scene_light_to_json(&s->lights[i], s->origin));
-    return root;
+        lights = file_json_append(lights, scene_light_to_json(&s->lights[i], s->origin));
+    json_t *root = json_pack("{s:o}", "scene", file_json_string(s->scene));
+    if (s->up != SCENE_UP_Y)
+        root = file_json_with(root, "up", json_string(scene_up_names[s->up]));
+    if (s->leaves != SCENE_LEAVES_TRANSLUCENT)
+        root = file_json_with(root, "leaves", json_string(scene_leaves_names[s->leaves]));
+    if (s->variant[0])
+        root = file_json_with(root, "variant", file_json_string(s->variant));
+    root = file_json_with(root, "width", json_integer(s->width));
+    root = file_json_with(root, "height", json_integer(s->height));
+    root = file_json_with(root, "samples", json_integer(s->samples));
+    root = file_json_with(root, "shadows", json_boolean(s->shadows));
+    root = file_json_with(root, "ground", json_string(environment_ground_names[s->ground]));
+    root = file_json_with(root, "exposure", file_json_float(s->exposure));
+    root = file_json_with(root, "tone", json_string(image_tones[s->tone].name));
+    root = file_json_with(root, "background", file_json_floats(s->background, 3));
+    root = file_json_with(root, "environment", environment_to_json(s));
+    /* Written where it is not 0, so that what is in the world is restored to the bit. */
+    if (!scene_origin_is_0(s->origin))
+        root = file_json_with(root, "origin",
+                              scene_world_to_json(s->origin, (const float[3]) { 0, 0, 0 }));
+    root = file_json_with(root, "camera", camera_to_json(s));
+    root = file_json_with(
+        root, "looks",
+        json_pack("[o, o]", shading_to_json(&s->shading[0]), shading_to_json(&s->shading[1])));
+    root = file_json_with(root, "split", json_string(view_split_names[s->split]));
+    root = file_json_with(root, "divider", file_json_float(s->divider));
+    root = file_json_with(root, "materials", materials);
+    return file_json_with(root, "lights", lights);
 }
 
 /* --- from JSON -------------------------------------------------------------------------------- */
 
-static bool read_int(const cJSON *object, const char *name, int minimum, int maximum, int *value) {
+static bool read_int(const json_t *object, const char *name, int minimum, int maximum, int *value) {
     double number;
-    if (!file_json_number(file_json_member(object, name), minimum, maximum, &number) ||
+    if (!file_json_number(json_object_get(object, name), minimum, maximum, &number) ||
         number != floor(number))
         return false;
     *value = (int)number;
     return true;
 }
 
-static bool read_float(const cJSON *object, const char *name, double minimum, double maximum,
+static bool read_float(const json_t *object, const char *name, double minimum, double maximum,
                        float *value) {
     double number;
-    /* limits in float, so that the nearest float of a limit is taken again */
-    if (!file_json_number(file_json_member(object, name), (double)(float)minimum,
+    /* limits in float, so that the float nearest to a limit is accepted */
+    if (!file_json_number(json_object_get(object, name), (double)(float)minimum,
                           (double)(float)maximum, &number))
         return false;
     *value = (float)number;
     return true;
 }
 
-static bool read_floats(const cJSON *object, const char *name, double minimum, double maximum,
+static bool read_floats(const json_t *object, const char *name, double minimum, double maximum,
                         float value[3]) {
     double numbers[3];
-    if (!file_json_numbers(file_json_member(object, name), 3, minimum, (double)(float)maximum,
+    if (!file_json_numbers(json_object_get(object, name), 3, minimum, (double)(float)maximum,
                            numbers))
         return false;
     for (int i = 0; i < 3; i++)
@@ -167,75 +159,82 @@ static bool read_floats(const cJSON *object, const char *name, double minimum, d
     return true;
 }
 
-static bool read_choice(const cJSON *object, const char *name, const char *const *choices,
+static bool read_choice(const json_t *object, const char *name, const char *const *choices,
                         int *value) {
-    const cJSON *item = file_json_member(object, name);
-    for (int i = 0; cJSON_IsString(item) && choices[i]; i++)
-        if (strcmp(choices[i], item->valuestring) == 0) {
+    const json_t *item = json_object_get(object, name);
+    for (int i = 0; json_is_string(item) && choices[i]; i++)
+        if (strcmp(choices[i], json_string_value(item)) == 0) {
             *value = i;
             return true;
         }
     return false;
 }
 
-/* Absent where the scene is as its file has it. */
-static bool read_up(const cJSON *root, int *up) {
-    *up = SCENE_UP_Y;
-    return !file_json_member(root, "up") || read_choice(root, "up", scene_up_names, up);
+/* Reads a choice, or returns `absent` if the object does not have it. */
+static bool read_choice_or(const json_t *object, const char *name, const char *const *choices,
+                           int absent, int *value) {
+    *value = absent;
+    return !json_object_get(object, name) || read_choice(object, name, choices, value);
 }
 
-/* Absent where the scene has the materials of its file. */
-static bool read_variant(const cJSON *root, char variant[SCENE_NAME_SIZE]) {
-    const cJSON *item = file_json_member(root, "variant");
-    if (item && (!cJSON_IsString(item) || strlen(item->valuestring) >= SCENE_NAME_SIZE))
+/* Reads the up axis; absent means as in the scene's file. */
+static bool read_up(const json_t *root, int *up) {
+    return read_choice_or(root, "up", scene_up_names, SCENE_UP_Y, up);
+}
+
+static bool read_leaves(const json_t *root, int *leaves) {
+    return read_choice_or(root, "leaves", scene_leaves_names, SCENE_LEAVES_TRANSLUCENT, leaves);
+}
+
+/* Reads the variant; absent means the materials of the scene's file. */
+static bool read_variant(const json_t *root, char variant[SCENE_NAME_SIZE]) {
+    const json_t *item = json_object_get(root, "variant");
+    if (item && (!json_is_string(item) || strlen(json_string_value(item)) >= SCENE_NAME_SIZE))
         return false;
-    strcpy(variant, item ? item->valuestring : "");
+    strcpy(variant, item ? json_string_value(item) : "");
     return true;
 }
 
-/* Absent from the screenshots of before there was a choice. */
-static bool read_tone(const cJSON *root, int *tone) {
-    *tone = 0;
-    return !file_json_member(root, "tone") || read_choice(root, "tone", image_tone_names(), tone);
+/* Reads the tone curve, which screenshots of early versions lack. */
+static bool read_tone(const json_t *root, int *tone) {
+    return read_choice_or(root, "tone", image_tone_names(), 0, tone);
 }
 
-/* Screenshots of before there were shadows have none. */
-static bool read_shadows(const cJSON *root, bool *shadows) {
-    const cJSON *item = file_json_member(root, "shadows");
-    *shadows = cJSON_IsTrue(item);
-    return !item || cJSON_IsBool(item);
+/* Reads whether there are shadows, which screenshots of early versions lack. */
+static bool read_shadows(const json_t *root, bool *shadows) {
+    const json_t *item = json_object_get(root, "shadows");
+    *shadows = json_is_true(item);
+    return !item || json_is_boolean(item);
 }
 
-/* Nor had those of before there was ground. */
-static bool read_ground(const cJSON *root, int *ground) {
-    *ground = ENVIRONMENT_GROUND_OFF;
-    return !file_json_member(root, "ground") ||
-           read_choice(root, "ground", environment_ground_names, ground);
+/* Reads the ground, which screenshots of early versions lack. */
+static bool read_ground(const json_t *root, int *ground) {
+    return read_choice_or(root, "ground", environment_ground_names, ENVIRONMENT_GROUND_OFF, ground);
 }
 
-/* Absent where it is 0. */
-static bool read_origin(const cJSON *root, double origin[3]) {
+/* Reads the origin; absent means 0. */
+static bool read_origin(const json_t *root, double origin[3]) {
     const double far = (double)LMP_LENGTH_MAX;
-    const cJSON *item = file_json_member(root, "origin");
+    const json_t *item = json_object_get(root, "origin");
     if (item && !file_json_numbers(item, 3, -far, far, origin))
         return false;
     for (int k = 0; k < 3; k++)
-        origin[k] += 0.0; /* no -0 */
+        origin[k] += 0.0; /* turns -0 into 0 */
     return true;
 }
 
-static bool read_camera(const cJSON *root, const double origin[3], scene_camera *camera) {
+static bool read_camera(const json_t *root, const double origin[3], scene_camera *camera) {
     const double far = (double)LMP_LENGTH_MAX;
-    const cJSON *object = file_json_member(root, "camera");
-    return scene_read_world(file_json_member(object, "eye"), origin, camera->eye) &&
-           scene_read_world(file_json_member(object, "target"), origin, camera->target) &&
+    const json_t *object = json_object_get(root, "camera");
+    return scene_read_world(json_object_get(object, "eye"), origin, camera->eye) &&
+           scene_read_world(json_object_get(object, "target"), origin, camera->target) &&
            read_floats(object, "up", -far, far, camera->up) &&
            read_float(object, "fov", 0.001, 3.1, &camera->fov) &&
-           (!file_json_member(object, "height") ||
+           (!json_object_get(object, "height") ||
             read_float(object, "height", 1e-6, far, &camera->height));
 }
 
-static bool read_shading(const cJSON *object, view_shading *shading) {
+static bool read_shading(const json_t *object, view_shading *shading) {
     int method, window;
     if (!read_choice(object, "method", method_names(), &method) ||
         !read_choice(object, "window", method_window_names(), &window))
@@ -246,31 +245,30 @@ static bool read_shading(const cJSON *object, view_shading *shading) {
                     &shading->bands);
 }
 
-static bool read_both_shadings(const cJSON *root, view_shading both[2]) {
-    const cJSON *array = file_json_member(root, "looks");
-    return cJSON_IsArray(array) && cJSON_GetArraySize(array) == 2 &&
-           read_shading(cJSON_GetArrayItem(array, 0), &both[0]) &&
-           read_shading(cJSON_GetArrayItem(array, 1), &both[1]);
+static bool read_both_shadings(const json_t *root, view_shading both[2]) {
+    const json_t *array = json_object_get(root, "looks");
+    return json_array_size(array) == 2 && read_shading(json_array_get(array, 0), &both[0]) &&
+           read_shading(json_array_get(array, 1), &both[1]);
 }
 
-static bool read_lights(const cJSON *root, view_settings *s) {
-    const cJSON *array = file_json_member(root, "lights"), *item;
+static bool read_lights(const json_t *root, view_settings *s) {
+    const json_t *array = json_object_get(root, "lights");
+    const size_t count = json_array_size(array);
     scene_light_error wrong;
-    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > SCENE_LIGHTS_MAX)
-        return false;
-    cJSON_ArrayForEach(item, array) {
-        if (!scene_light_from_json(item, s->origin, &s->lights[s->light_count++], &wrong))
-            return false;
-    }
-    return true;
+    bool ok = json_is_array(array) && count <= SCENE_LIGHTS_MAX;
+    for (; ok && s->light_count < count; s->light_count++)
+        ok = scene_light_from_json(json_array_get(array, s->light_count), s->origin,
+                                   &s->lights[s->light_count], &wrong);
+    return ok;
 }
 
-static bool read_materials(const cJSON *root, view_settings *s) {
-    const cJSON *array = file_json_member(root, "materials"), *item;
-    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > RENDER_TABLES_MAX)
+static bool read_materials(const json_t *root, view_settings *s) {
+    json_t *array = json_object_get(root, "materials"), *item;
+    size_t i;
+    if (!json_is_array(array) || json_array_size(array) > RENDER_TABLES_MAX)
         return false;
-    cJSON_ArrayForEach(item, array) {
-        const char *text = cJSON_IsString(item) ? item->valuestring : "";
+    json_array_foreach (array, i, item) {
+        const char *text = json_is_string(item) ? json_string_value(item) : "";
         const char *equals = strchr(text, '=');
         char material_name[SCENE_NAME_SIZE] = "";
         if (!equals || (size_t)(equals - text) >= sizeof material_name ||
@@ -283,18 +281,18 @@ static bool read_materials(const cJSON *root, view_settings *s) {
     return true;
 }
 
-static bool read_path(const cJSON *object, const char *member, char name[VIEW_PATH_SIZE]) {
-    const cJSON *item = file_json_member(object, member);
-    if (!cJSON_IsString(item) || strlen(item->valuestring) >= VIEW_PATH_SIZE ||
-        file_is_standard_input(item->valuestring))
+static bool read_path(const json_t *object, const char *member, char name[VIEW_PATH_SIZE]) {
+    const json_t *item = json_object_get(object, member);
+    if (!json_is_string(item) || strlen(json_string_value(item)) >= VIEW_PATH_SIZE ||
+        file_is_standard_input(json_string_value(item)))
         return false;
-    strcpy(name, item->valuestring);
+    strcpy(name, json_string_value(item));
     return true;
 }
 
-/* Screenshots of before there were environments have none. */
-static bool read_environment(const cJSON *root, view_settings *s) {
-    const cJSON *object = file_json_member(root, "environment");
+/* Reads the environment, which screenshots of early versions lack. */
+static bool read_environment(const json_t *root, view_settings *s) {
+    const json_t *object = json_object_get(root, "environment");
     if (!object)
         strcpy(s->environment, "none");
     return !object ||
@@ -303,13 +301,14 @@ static bool read_environment(const cJSON *root, view_settings *s) {
             read_float(object, "strength", 0, ENVIRONMENT_STRENGTH_MAX, &s->environment_strength));
 }
 
-bool view_settings_from_json(const cJSON *root, const char *subject, view_settings *s,
-                             cli_error *error) {
-    memset(s, 0, sizeof *s);
+bool view_settings_from_json(const json_t *root, const char *subject, view_settings *s,
+                             base_error *error) {
+    memset(s, 0, view_settings_size(s));
     int split = 0;
-    const char *wrong = !cJSON_IsObject(root)                                          ? "settings"
+    const char *wrong = !json_is_object(root)                                          ? "settings"
                         : !read_path(root, "scene", s->scene)                          ? "scene"
                         : !read_up(root, &s->up)                                       ? "up"
+                        : !read_leaves(root, &s->leaves)                               ? "leaves"
                         : !read_variant(root, s->variant)                              ? "variant"
                         : !read_int(root, "width", 1, IMAGE_SIZE_MAX, &s->width)       ? "width"
                         : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
@@ -333,35 +332,35 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
     s->split = (gpu_split)split;
     if (!wrong)
         return true;
-    memset(s, 0, sizeof *s);
-    return cli_fail(error, subject, "has settings whose %s make no sense", wrong);
+    memset(s, 0, view_settings_size(s));
+    return base_fail(error, subject, "has settings with invalid \"%s\"", wrong);
 }
 
 /* --- screenshots ------------------------------------------------------------------------------ */
 
 bool view_write_shot(const view_settings *s, const unsigned char *rgb8, const char *path,
-                     cli_error *error) {
+                     base_error *error) {
     char *text = file_json_text(view_settings_to_json(s), false, path, error);
     if (!text)
         return false;
-    const image_text chunk = { IMAGE_SETTINGS_KEY, text };
+    const image_text chunk = { SHOT_KEY, text };
     const bool ok = image_write_png8_text(rgb8, s->width, s->height, &chunk, path, error);
     free(text);
     return ok;
 }
 
-/* A name of so many bytes that a screenshot has for a part of what it shows. */
+/* Checks a name of so many bytes that a screenshot uses for `part`. */
 static bool check_name(const char *shot, const char *part, const char *name, size_t length,
-                       cli_error *error) {
+                       base_error *error) {
     char path[VIEW_MATERIAL_SIZE];
     snprintf(path, sizeof path, "%.*s", (int)length, name);
     return file_confine(path, shot) ||
-           cli_fail(error, shot,
-                    "names the %s \"%.300s\", which is outside its folder (see --allow-paths)",
-                    part, path);
+           base_fail(error, shot,
+                     "names the %s \"%.300s\", which is outside its folder (see --allow-paths)",
+                     part, path);
 }
 
-/* Whether the material of a text NAME=MATERIAL is replaced by one of the list. */
+/* Whether an entry of the list replaces the material of a text NAME=MATERIAL. */
 static bool is_replaced(const cli_list *list, const char *text) {
     const size_t length = strcspn(text, "=") + 1;
     for (int i = 0; list && i < list->count; i++)
@@ -370,10 +369,10 @@ static bool is_replaced(const cli_list *list, const char *text) {
     return false;
 }
 
-/* Whoever made a screenshot is a stranger, and may name what is no business of theirs: a private
- * file, or one whose mere opening does something. Each setting that is a name of a file is here. */
+/* Checks every setting that names a file. A screenshot is untrusted and may name a private file, or
+ * one that must not even be opened. */
 static bool check_names(const view_settings *s, const char *shot, const view_shot_options *options,
-                        cli_error *error) {
+                        base_error *error) {
     if (options->allow_paths)
         return true;
     if (!options->scene && scene_is_file(s->scene) &&
@@ -393,17 +392,13 @@ static bool check_names(const view_settings *s, const char *shot, const view_sho
 }
 
 bool view_read_shot(const char *path, const view_shot_options *options, view_settings *s,
-                    cli_error *error) {
-    memset(s, 0, sizeof *s);
-    char *text = NULL;
-    if (!image_read_png_text(path, IMAGE_SETTINGS_KEY, &text, error))
-        return false;
-    cJSON *root = file_parse_json(path, text, strlen(text), error);
-    free(text);
+                    base_error *error) {
+    memset(s, 0, view_settings_size(s));
+    json_t *root = shot_read(path, error);
     const bool ok = root && view_settings_from_json(root, path, s, error);
-    cJSON_Delete(root);
+    json_decref(root);
     if (ok && (long)s->width * s->height > options->pixels_max)
-        return cli_fail(error, path, "asks for %d x %d pixels (at most %d; see --max-pixels)",
-                        s->width, s->height, options->pixels_max);
+        return base_fail(error, path, "asks for %d x %d pixels (at most %d; see --max-pixels)",
+                         s->width, s->height, options->pixels_max);
     return ok && check_names(s, path, options, error);
 }

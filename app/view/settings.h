@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* settings.h - everything that decides an image of the viewer, and the same as JSON: in the text
+/* settings.h - everything that determines an image of the viewer, and its JSON form: in the text
  * chunk of a screenshot, and for `lampion render --from` (docs/viewer.md). */
 #ifndef LAMPION_VIEW_SETTINGS_H
 #define LAMPION_VIEW_SETTINGS_H
 
-#include "app/environment/environment.h"
+#include "app/base/cli.h"
 #include "app/render/gl/gpu.h"
+#include "app/scene/environment.h"
 
 #include <stddef.h>
 
@@ -13,7 +14,7 @@
 #define VIEW_MATERIAL_SIZE (VIEW_PATH_SIZE + SCENE_NAME_SIZE)
 #define VIEW_SAMPLES_MAX   1024
 
-/* How to shade a side. */
+/* How a side is shaded. */
 typedef struct view_shading {
     method_kind method;
     int bands;
@@ -22,74 +23,82 @@ typedef struct view_shading {
 
 typedef struct view_settings {
     char scene[VIEW_PATH_SIZE];
-    int up;                        /* as in scene_options */
-    char variant[SCENE_NAME_SIZE]; /* likewise; empty: the file's own */
+    int up, leaves;                /* as in scene_options */
+    char variant[SCENE_NAME_SIZE]; /* as in scene_options; empty: the file's default */
     int width, height;
-    int samples; /* a pixel */
+    int samples; /* per pixel */
     bool shadows;
     int ground;     /* environment_ground */
     float exposure; /* a factor on radiance */
     int tone;       /* a row of image_tones */
     float background[3];
-    char environment[VIEW_PATH_SIZE]; /* a name of environment_options */
+    char environment[VIEW_PATH_SIZE]; /* as in environment_options */
     float environment_rotation, environment_strength;
-    double origin[3]; /* in the world: camera and lights are relative to it, as the scene's are */
+    double origin[3]; /* in the world; camera and lights are relative to it, as the scene's are */
     scene_camera camera;
-    view_shading shading[2]; /* the second one of a split image */
+    view_shading shading[2]; /* the second is for a split image */
     gpu_split split;
-    float divider; /* a part of the width */
+    float divider; /* as a fraction of the width */
     int material_count;
     char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE]; /* NAME=MATERIAL */
     size_t light_count;
     scene_light lights[SCENE_LIGHTS_MAX];
 } view_settings;
 
-/* As scene_options has it. */
+/* Returns how many sides the image has. */
+static inline int view_sides(const view_settings *settings) {
+    return settings->split == GPU_SPLIT_NONE ? 1 : 2;
+}
+
+/* Returns the variant as in scene_options. */
 static inline const char *view_variant(const view_settings *settings) {
     return settings->variant[0] ? settings->variant : NULL;
 }
 
-/* The bytes of them that count: all but the room for more lights. */
+/* Returns the size of the settings in use: all but the room for more lights. */
 static inline size_t view_settings_size(const view_settings *settings) {
     return offsetof(view_settings, lights) + settings->light_count * sizeof *settings->lights;
 }
 
 extern const char *const view_split_names[GPU_SPLITS + 1]; /* NULL-terminated */
 
-/* Has materials of that name replaced by another, as --material has it, or with NULL by nothing.
- * False if there is no room or the names are too long. */
+/* Replaces materials of that name by another, as --material does, or removes the replacement if
+ * NULL. Returns false if there is no room or the names are too long. */
 bool view_set_material(view_settings *settings, const char *material_name, const char *replacement);
 
-/* What replaces it, or NULL. */
+/* Returns the replacement of a material, or NULL. */
 const char *view_material_of(const view_settings *settings, const char *material_name);
 
-/* Takes camera and lights to another origin. */
+/* Moves camera and lights to another origin. */
 void view_settings_rebase(view_settings *settings, const double origin[3]);
 
-struct cJSON;
-struct cJSON *view_settings_to_json(const view_settings *settings);
+struct json_t;
+struct json_t *view_settings_to_json(const view_settings *settings);
 
-/* Every number is checked; *settings is zero on failure, whose line names the `subject`. */
-bool view_settings_from_json(const struct cJSON *root, const char *subject, view_settings *settings,
-                             cli_error *error);
+/* Reads and checks every number; on failure *settings is zero, and the message names the
+ * `subject`. Before, *settings must be zero or hold settings, because to clear the room for all
+ * lights takes longer than to read most files. */
+bool view_settings_from_json(const struct json_t *root, const char *subject,
+                             view_settings *settings, base_error *error);
 
-/* An image with its settings in a text chunk. */
+/* Writes an image with its settings in a text chunk. */
 bool view_write_shot(const view_settings *settings, const unsigned char *rgb8, const char *path,
-                     cli_error *error);
+                     base_error *error);
 
-/* What the reader of a screenshot allows it, and names in place of what it names. */
+/* What a screenshot may request, and names that replace those in it. */
 typedef struct view_shot_options {
     int pixels_max;
     bool allow_paths;          /* of files that do not lie beside it */
-    const char *scene;         /* or NULL; this one and those of the materials */
-    const cli_list *materials; /* may lie anywhere; or NULL */
+    const char *scene;         /* replaces its scene, or NULL */
+    const cli_list *materials; /* replace its materials and may lie anywhere; or NULL */
 } view_shot_options;
 
-/* The settings of such an image. They name no files but those that the options allow. */
+/* Reads the settings of a screenshot, which name no files but those that the options allow; before,
+ * *settings must be zero or hold settings. */
 bool view_read_shot(const char *path, const view_shot_options *options, view_settings *settings,
-                    cli_error *error);
+                    base_error *error);
 
-/* The rows of a command that say so: how many pixels a screenshot may ask for, by default
+/* The option rows of a command that reads screenshots: how many pixels one may request, by default
  * IMAGE_READ_PIXELS, and whether it may name any file. */
 #define VIEW_SHOT_OPTION_ROWS(shot)                                                                \
     { .name = "max-pixels",                                                                        \

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* shots.c - what the viewer writes: screenshots, recordings, its state. */
-#include "app/file/file.h"
+/* shots.c - files that the viewer writes: screenshots, recordings, its state. */
+#include "app/base/file_json.h"
+#include "app/base/file_writer.h"
 #include "app/view/panel.h"
 #include "app/view/viewer.h"
 
-#include <cjson/cJSON.h>
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 enum { SHOTS_MAX = 10000 };
 
-/* The settings with all samples, to a file. */
+/* Draws the settings with all samples and writes the image to a file. */
 static bool write_shot(viewer *v, const view_settings *settings, const char *path,
-                       cli_error *error) {
+                       base_error *error) {
     bool ok = true;
     if (v->fresh || v->sample != settings->samples - 1) {
         ok = view_compositor_draw(v->compositor, settings, &v->statistics, error);
@@ -24,7 +25,7 @@ static bool write_shot(viewer *v, const view_settings *settings, const char *pat
     return ok && view_compositor_write(v->compositor, settings, path, error);
 }
 
-/* The first of numbered names that no file has yet; false if all are taken. */
+/* Finds the first numbered name that no file has; returns false if all are taken. */
 static bool find_name(const char *beginning, const char *ending, char *name, size_t size) {
     struct stat status;
     for (int i = 1; i < SHOTS_MAX; i++) {
@@ -38,7 +39,7 @@ static bool find_name(const char *beginning, const char *ending, char *name, siz
 void view_save_lights(viewer *v) {
     const view_settings *now = &v->state.now;
     char name[64];
-    cli_error error;
+    base_error error;
     if (!find_name("lampion-lights", ".json", name, sizeof name))
         view_say(&v->state, "There are too many files of lights here");
     else if (scene_write_lights(name, now->origin, now->lights, now->light_count, &error))
@@ -47,7 +48,7 @@ void view_save_lights(viewer *v) {
         view_say(&v->state, "%s", error.text);
 }
 
-bool view_take_shot(viewer *v, const char *path, cli_error *error) {
+bool view_take_shot(viewer *v, const char *path, base_error *error) {
     const bool scripted = path;
     char name[64];
     if (!path && find_name("lampion", ".png", name, sizeof name))
@@ -76,7 +77,7 @@ void view_toggle_recording(viewer *v) {
     }
 }
 
-bool view_record_frame(viewer *v, cli_error *error) {
+bool view_record_frame(viewer *v, base_error *error) {
     char path[VIEW_PATH_SIZE + 32];
     snprintf(path, sizeof path, "%s/frame_%06d.png", v->record, v->recorded);
     if (write_shot(v, v->drawn, path, error)) {
@@ -88,47 +89,44 @@ bool view_record_frame(viewer *v, cli_error *error) {
     return !v->options->record;
 }
 
-/* The chosen row of the panel, as it is drawn. */
-static void add_panel(cJSON *ui, const view_state *s) {
+/* Adds the selected row of the panel as it is drawn. */
+static json_t *with_panel(json_t *ui, const view_state *s) {
     view_row rows[VIEW_PANEL_ROWS];
     const int count = view_panel_rows(s, rows);
     for (int i = 0; i < count; i++)
         if (rows[i].chosen) {
-            cJSON_AddStringToObject(ui, "panel", rows[i].name);
-            cJSON_AddStringToObject(ui, "value", rows[i].value);
+            ui = file_json_with(ui, "panel", file_json_string(rows[i].name));
+            ui = file_json_with(ui, "value", file_json_string(rows[i].value));
         }
+    return ui;
 }
 
-bool view_write_state(viewer *v, cli_error *error) {
+static json_t *ui_to_json(const viewer *v) {
     const view_state *s = &v->state;
-    cJSON *root = view_settings_to_json(v->drawn);
-    cJSON *ui = cJSON_AddObjectToObject(root, "view");
-    cJSON_AddNumberToObject(ui, "frame", v->frame);
-    cJSON_AddNumberToObject(ui, "seconds", s->seconds);
-    cJSON_AddBoolToObject(ui, "playing", s->playing);
-    cJSON_AddStringToObject(ui, "path", s->path_names[s->path]);
-    cJSON_AddNumberToObject(ui, "selected", s->selected);
-    cJSON_AddNumberToObject(ui, "side", view_side(s));
-    cJSON_AddBoolToObject(ui, "help", s->help);
-    cJSON_AddBoolToObject(ui, "overlay", s->overlay);
-    cJSON_AddBoolToObject(ui, "walking", s->walking);
-    add_panel(ui, s);
-    cJSON_AddBoolToObject(ui, "recording", s->recording);
-    cJSON_AddNumberToObject(ui, "recorded", v->recorded);
-    cJSON_AddStringToObject(ui, "message", s->message);
-    cJSON_AddNumberToObject(ui, "sample", v->sample);
-    cJSON_AddNumberToObject(ui, "drawn_width", v->statistics.width);
-    cJSON_AddNumberToObject(ui, "drawn_height", v->statistics.height);
-    cJSON_AddNumberToObject(ui, "moving_frame_ms", 1e3 * v->frame_seconds);
-    cJSON_AddNumberToObject(ui, "show_ms", 1e3 * v->show_seconds);
-    cJSON_AddNumberToObject(ui, "gbuffer_ms", v->statistics.times.surfaces);
-    cJSON_AddNumberToObject(ui, "shade_ms", v->statistics.times.shade);
-    cJSON_AddNumberToObject(ui, "shadow_ms", v->statistics.times.shadow);
-    cJSON_AddNumberToObject(ui, "transfer_ms", v->statistics.times.transfer);
-    char *text = cJSON_Print(root);
-    cJSON_Delete(root);
-    bool ok = text || cli_fail(error, v->options->state, "out of memory");
-    ok = ok && file_write_whole(v->options->state, text, strlen(text), error);
-    cJSON_free(text);
+    json_t *ui =
+        json_pack("{s:i, s:f, s:b, s:o, s:i, s:i, s:b, s:b, s:b}", "frame", v->frame, "seconds",
+                  s->seconds, "playing", s->playing, "path",
+                  file_json_string(s->path_names[s->path]), "selected", s->selected, "side",
+                  view_side(s), "help", s->help, "overlay", s->overlay, "walking", s->walking);
+    ui = with_panel(ui, s);
+    ui = file_json_with(ui, "recording", json_boolean(s->recording));
+    ui = file_json_with(ui, "recorded", json_integer(v->recorded));
+    ui = file_json_with(ui, "message", file_json_string(s->message));
+    ui = file_json_with(ui, "sample", json_integer(v->sample));
+    ui = file_json_with(ui, "drawn_width", json_integer(v->statistics.width));
+    ui = file_json_with(ui, "drawn_height", json_integer(v->statistics.height));
+    ui = file_json_with(ui, "moving_frame_ms", file_json_real(1e3 * v->frame_seconds));
+    ui = file_json_with(ui, "show_ms", file_json_real(1e3 * v->show_seconds));
+    ui = file_json_with(ui, "gbuffer_ms", file_json_real(v->statistics.times.surfaces));
+    ui = file_json_with(ui, "shade_ms", file_json_real(v->statistics.times.shade));
+    ui = file_json_with(ui, "shadow_ms", file_json_real(v->statistics.times.shadow));
+    return file_json_with(ui, "transfer_ms", file_json_real(v->statistics.times.transfer));
+}
+
+bool view_write_state(viewer *v, base_error *error) {
+    json_t *root = file_json_with(view_settings_to_json(v->drawn), "view", ui_to_json(v));
+    char *text = file_json_text(root, true, v->options->state, error);
+    const bool ok = text && file_write_whole(v->options->state, text, strlen(text), error);
+    free(text);
     return ok;
 }

@@ -17,7 +17,7 @@ void view_say(view_state *s, const char *format, ...) {
 
 /* --- opening ---------------------------------------------------------------------------------- */
 
-static bool add_path(view_state *s, const char *name, cli_error *error) {
+static bool add_path(view_state *s, const char *name, base_error *error) {
     if (!animation_open(name, s->world, &s->paths[s->path_count], error))
         return false;
     s->path_names[s->path_count++] = name;
@@ -30,7 +30,7 @@ static void close_paths(view_state *s) {
     s->path_count = 0;
 }
 
-static bool open_paths(view_state *s, const char *animate, cli_error *error) {
+static bool open_paths(view_state *s, const char *animate, base_error *error) {
     static const char *const known[] = { "orbit", "bounce", "scene" };
     const int count = s->world->motion_count > 0 ? 3 : 2;
     bool listed = !animate;
@@ -60,7 +60,7 @@ void view_put_lights(view_state *s, const scene_light *lights, size_t count) {
     s->drag = VIEW_DRAG_NONE;
 }
 
-/* Those of the scene; there is nothing to undo yet. */
+/* Takes the lights of the scene; there is nothing to undo yet. */
 static void take_lights(view_state *s) {
     view_put_lights(s, s->world->lights, s->world->light_count);
     s->lights_edited = false;
@@ -69,7 +69,7 @@ static void take_lights(view_state *s) {
 }
 
 bool view_state_open(const scene *world, const view_settings *settings, const char *animate,
-                     view_state *s, cli_error *error) {
+                     view_state *s, base_error *error) {
     memset(s, 0, sizeof *s);
     s->world = world;
     s->now = *settings;
@@ -89,24 +89,24 @@ void view_state_close(view_state *s) {
     view_history_clear(&s->history);
 }
 
-/* Another scene begins as if the viewer had been started with it. */
+/* Resets the state for another scene, as if the viewer had been started with it. */
 static void begin_other(view_state *s) {
     strcpy(s->now.scene, s->other);
     s->other[0] = s->now.variant[0] = '\0';
     memset(s->now.materials, 0, sizeof s->now.materials);
     s->now.material_count = 0;
     s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
-    s->now.camera.near = s->now.camera.far = 0; /* it flies on, past the file's planes */
+    s->now.camera.near = s->now.camera.far = 0; /* it may fly past the file's planes */
     s->camera = 0;
     s->seconds = 0;
     s->panel = (view_panel) { .kind = VIEW_PANEL_CLOSED };
     s->walking = scene_is_inside(s->world);
-    s->wishes.expose = true;
+    s->requests.expose = true;
     take_lights(s);
 }
 
-/* What stays of a scene that is replaced stays where it is in the world; what could be undone is
- * relative to the other origin. */
+/* Rebases what stays of a replaced scene, so that it stays at its position in the world; the undo
+ * history, relative to the other origin, is cleared. */
 static void follow_origin(view_state *s) {
     if (memcmp(s->now.origin, s->world->origin, sizeof s->now.origin) == 0)
         return;
@@ -115,21 +115,44 @@ static void follow_origin(view_state *s) {
     view_history_keep(&s->history, &s->now, s->numbers);
 }
 
-bool view_state_replace_scene(view_state *s, const scene *world, cli_error *error) {
-    const view_state before = *s;
+/* The paths of a scene, kept while opening those of another may fail. */
+typedef struct kept_paths {
+    const scene *world;
+    animation *paths[VIEW_PATHS_MAX];
+    const char *names[VIEW_PATHS_MAX];
+    int count, path;
+} kept_paths;
+
+static kept_paths keep_paths(const view_state *s) {
+    kept_paths kept = { .world = s->world, .count = s->path_count, .path = s->path };
+    memcpy(kept.paths, s->paths, sizeof kept.paths);
+    memcpy(kept.names, s->path_names, sizeof kept.names);
+    return kept;
+}
+
+static void take_paths_back(view_state *s, const kept_paths *kept) {
+    s->world = kept->world;
+    s->path_count = kept->count;
+    s->path = kept->path;
+    memcpy(s->paths, kept->paths, sizeof kept->paths);
+    memcpy(s->path_names, kept->names, sizeof kept->names);
+}
+
+bool view_state_replace_scene(view_state *s, const scene *world, base_error *error) {
+    const kept_paths before = keep_paths(s);
     const char *name = s->path_names[s->path];
     s->world = world;
     s->path_count = s->path = 0;
     if (!open_paths(s, name, error)) {
         close_paths(s);
-        /* the new scene may have lost the motion that was playing: the scene is fine without */
+        /* the new scene may lack the motion that was playing; do without it */
         if (!open_paths(s, NULL, error)) {
             close_paths(s);
-            *s = before;
+            take_paths_back(s, &before);
             return false;
         }
     }
-    for (int i = 0; i < before.path_count; i++)
+    for (int i = 0; i < before.count; i++)
         animation_close(before.paths[i]);
     follow_origin(s);
     if (s->other[0])

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* state.h - the viewer without its window: events and time in, what to show out. */
+/* state.h - the viewer without its window: takes events and time, tells what to show. */
 #ifndef LAMPION_VIEW_STATE_H
 #define LAMPION_VIEW_STATE_H
 
-#include "app/animation/animation.h"
+#include "app/scene/animation.h"
 #include "app/view/camera.h"
 #include "app/view/history.h"
 #include "app/view/settings.h"
@@ -15,12 +15,12 @@ typedef enum view_event_kind {
     VIEW_PRESS,   /* a button */
     VIEW_RELEASE, /* a button */
     VIEW_SCROLL,  /* by y steps, forward > 0 */
-    VIEW_KEY,     /* a key of view_keys, by its name, or a letter for the panel */
-    VIEW_HOLD,    /* one of the letters wasdqe, by its position on a US keyboard */
-    VIEW_FREE,    /* the same, let go; 0: all of them */
-    VIEW_DROP,    /* a file, onto where the pointer is */
-    VIEW_TYPE,    /* the letters of a text, one after the other, as keys */
-    VIEW_SIZE     /* the image has x times y pixels; none: it cannot be seen */
+    VIEW_KEY,     /* a key of view_keys, by its name, or a character for the panel */
+    VIEW_HOLD,    /* one of the keys wasdqe, by its position on a US keyboard */
+    VIEW_FREE,    /* a held key is released; 0: all of them */
+    VIEW_DROP,    /* a file, dropped at the pointer */
+    VIEW_TYPE,    /* the characters of a text, one after the other, as keys */
+    VIEW_SIZE     /* the image has x times y pixels; none: it is not visible */
 } view_event_kind;
 
 typedef enum view_button { VIEW_LEFT, VIEW_MIDDLE, VIEW_RIGHT } view_button;
@@ -29,17 +29,18 @@ typedef struct view_event {
     view_event_kind kind;
     double x, y;
     view_button button;
-    bool shift;       /* with a button or a held letter */
+    bool shift;       /* held, with a button or a held key */
     char letter;      /* of VIEW_HOLD and VIEW_FREE */
     const char *text; /* the key, the file, or what is typed */
 } view_event;
 
 /* --- the state -------------------------------------------------------------------------------- */
 
-/* What the window has to do; the state machine sets them, who does it clears them. */
-typedef struct view_wishes {
+/* What the window is asked to do: the state machine sets requests, and whoever fulfills one clears
+ * it. */
+typedef struct view_requests {
     bool quit, shot, record, reload, restart, fullscreen, expose, redraw, save;
-} view_wishes;
+} view_requests;
 
 typedef enum view_drag {
     VIEW_DRAG_NONE,
@@ -50,7 +51,7 @@ typedef enum view_drag {
     VIEW_DRAG_DIVIDER
 } view_drag;
 
-/* Which panel of values is open (app/view/panel.h), and what is typed into it. */
+/* The open panel of values (app/view/panel.h), and the text typed into it. */
 enum { VIEW_TYPED_SIZE = 1024 };
 typedef enum view_panel_kind {
     VIEW_PANEL_CLOSED,
@@ -62,94 +63,93 @@ typedef enum view_panel_kind {
 
 typedef struct view_panel {
     view_panel_kind kind;
-    int row;     /* the one that is chosen */
-    bool typing; /* its value is what has been typed so far */
+    int row;     /* the selected one */
+    bool typing; /* whether the row shows what has been typed */
     char typed[VIEW_TYPED_SIZE];
 } view_panel;
 
 enum { VIEW_PATHS_MAX = 4, VIEW_MESSAGE_SIZE = 256 };
 
 typedef struct view_state {
-    view_settings now; /* lights at rest, before they move */
+    view_settings now; /* lights at rest, without animation */
     const scene *world;
     animation *paths[VIEW_PATHS_MAX]; /* owned */
     const char *path_names[VIEW_PATHS_MAX];
     int path_count, path;
     bool playing;
     double seconds;                                /* of the animation */
-    size_t numbers[SCENE_LIGHTS_MAX], next_number; /* of each light, for animation_move */
+    size_t numbers[SCENE_LIGHTS_MAX], next_number; /* for animation_move, one per light */
     bool lights_edited;
     view_history history;
     int selected; /* a light, or -1 */
     view_drag drag;
-    lmp_vec3 grab;         /* from the dragged light's shown position to that at rest */
+    lmp_vec3 grab;         /* from the dragged light's animated position to its resting position */
     float grab_depth;      /* of the dragged light's center */
-    double grab_x, grab_y; /* from its center in the image to the pointer */
-    double x, y;           /* the pointer */
-    bool held[6], fast;    /* wasdqe; shift with them */
-    bool walking;          /* inside a building: the left button looks around */
+    double grab_x, grab_y; /* from the light's center in the image to the pointer */
+    double x, y;           /* of the pointer */
+    bool held[6], fast;    /* the keys wasdqe; shift with them */
+    bool walking;          /* whether the left button looks around, as inside a building */
     view_panel panel;
     bool help, overlay, recording;
-    int camera;                   /* the scene's camera last taken */
-    char dropped[VIEW_PATH_SIZE]; /* the last material dropped */
-    char other[VIEW_PATH_SIZE];   /* another scene to be opened, or empty */
+    int camera;                   /* the scene's camera chosen last */
+    char dropped[VIEW_PATH_SIZE]; /* the material dropped last */
+    char other[VIEW_PATH_SIZE];   /* another scene to open, or empty */
     char message[VIEW_MESSAGE_SIZE];
     double message_until, clock; /* seconds */
-    view_wishes wishes;
+    view_requests requests;
 } view_state;
 
-/* Starts with `settings`, whose lights become the scene's. Takes ownership of nothing but opens the
- * paths orbit and bounce, that of the scene if it has one, and `animate` (a name of
- * animation_open, or NULL: then nothing plays). */
+/* Starts with `settings`, whose lights become the scene's. Owns nothing but the paths that it
+ * opens: orbit, bounce, that of the scene if it has one, and `animate` (a name of animation_open,
+ * or NULL: nothing is animated at first). */
 bool view_state_open(const scene *world, const view_settings *settings, const char *animate,
-                     view_state *state, cli_error *error);
+                     view_state *state, base_error *error);
 void view_state_close(view_state *state);
 
-/* These in place of all lights. */
+/* Replaces all lights. */
 void view_put_lights(view_state *state, const scene_light *lights, size_t count);
 
-/* Puts another version of the scene in place of the one before, whose lights stay if they were
- * edited. Of another scene nothing stays but the shading. */
-bool view_state_replace_scene(view_state *state, const scene *world, cli_error *error);
+/* Replaces the scene by another version of it; edited lights are kept. For a different scene, only
+ * the shading settings are kept. */
+bool view_state_replace_scene(view_state *state, const scene *world, base_error *error);
 
 void view_handle(view_state *state, const view_event *event);
 
-/* Time passes: flight, the animation, messages. */
+/* Advances time: flight, the animation, messages. */
 void view_advance(view_state *state, double seconds);
 
-/* What is to be drawn now: settings with all lights where they are at this time. */
+/* Returns what to draw now: settings with all lights at their animated positions. */
 void view_shown(const view_state *state, view_settings *settings);
 
-/* The side that keys act on: where the pointer is. */
+/* Returns the side that keys act on: the one under the pointer. */
 int view_side(const view_state *state);
 
-/* --- files.c: what files do --------------------------------------------------------------------
- */
+/* --- files.c: files that are opened ----------------------------------------------------------- */
 
-/* A scene, lights or a material: dropped, or by its name in the panel. */
-bool view_take_file(view_state *state, const char *file, cli_error *error);
+/* Opens a scene, lights or a material, dropped or named in the panel. */
+bool view_take_file(view_state *state, const char *file, base_error *error);
 
-/* Has the scene's material of that name replaced, or with NULL be itself again. */
+/* Replaces the scene's material of that name, or restores it if NULL. */
 bool view_replace_material(view_state *state, const char *name, const char *replacement,
-                           cli_error *error);
+                           base_error *error);
 
-/* The index of the material pointed at, or 0. */
+/* Returns the index of the material under the pointer, or 0. */
 int view_material_at_pointer(const view_state *state);
 
 /* --- messages --------------------------------------------------------------------------------- */
 
-/* Shows a line for some seconds. */
+/* Shows a message for some seconds. */
 void view_say(view_state *state, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Back by -1, forward by 1. */
+/* Undoes with -1, redoes with 1. */
 void view_undo(view_state *state, int step);
 
 /* --- keys ------------------------------------------------------------------------------------- */
 
-/* A row of the help: keys by the character that they type, or by name. */
+/* A row of the help: a key by the character that it types, or by its name. */
 typedef struct view_key {
     const char *key;   /* "m", "F1", "Shift+Tab"; NULL: a heading, or a gesture of the mouse */
-    const char *shown; /* for the help: "m  M"; NULL: not shown, a second key of the row before */
+    const char *shown; /* in the help: "m  M"; NULL: not shown, an alternative to the row before */
     const char *help;
     void (*act)(view_state *state, int argument);
     int argument;

@@ -10,7 +10,7 @@ bool view_surroundings_match(const view_surroundings *s, const view_settings *se
 }
 
 bool view_surroundings_open(view_surroundings *s, const view_settings *settings, const scene *world,
-                            cli_error *error) {
+                            base_error *error) {
     const environment_options options = { .name = settings->environment,
                                           .rotation = settings->environment_rotation,
                                           .strength = settings->environment_strength,

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* surroundings.h - the environment of the settings that were drawn last. */
+/* surroundings.h - the environment of the settings drawn last. */
 #ifndef LAMPION_VIEW_SURROUNDINGS_H
 #define LAMPION_VIEW_SURROUNDINGS_H
 
 #include "app/view/settings.h"
 
-/* Zero is none; environment_free(&around) ends it. */
+/* An environment and its name; zero: none. Free with environment_free(&around). */
 typedef struct view_surroundings {
     environment around;
-    char name[VIEW_PATH_SIZE]; /* what it was made of; empty: nothing */
+    char name[VIEW_PATH_SIZE]; /* what it was made from; empty: nothing */
     float rotation, strength;
     int ground;
 } view_surroundings;
 
-/* Whether it is that of the settings. */
+/* Whether the environment is that of the settings. */
 bool view_surroundings_match(const view_surroundings *surroundings, const view_settings *settings);
 
-/* Opens that of the settings instead. On failure there is none. */
+/* Replaces the environment by that of the settings. On failure there is none. */
 bool view_surroundings_open(view_surroundings *surroundings, const view_settings *settings,
-                            const scene *world, cli_error *error);
+                            const scene *world, base_error *error);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* viewer.c - the viewer's loop: events, time, wishes. */
+/* viewer.c - the viewer's loop: events, time, requests. */
 #include "app/view/view.h"
 
-#include "app/file/file.h"
+#include "app/base/error.h"
 #include "app/view/viewer.h"
 
 #include <errno.h>
@@ -13,7 +13,7 @@
 
 /* --- the window's graphics -------------------------------------------------------------------- */
 
-static bool open_graphics(viewer *v, cli_error *error) {
+static bool open_graphics(viewer *v, base_error *error) {
     v->window =
         view_window_open("Lampion", v->state.now.width, v->state.now.height, &v->state, error);
     memset(v->labels, 0, sizeof v->labels);
@@ -32,7 +32,7 @@ static void close_graphics(viewer *v) {
     v->window = NULL;
 }
 
-static bool restart(viewer *v, cli_error *error) {
+static bool restart(viewer *v, base_error *error) {
     close_graphics(v);
     if (!open_graphics(v, error))
         return false;
@@ -40,41 +40,41 @@ static bool restart(viewer *v, cli_error *error) {
     return true;
 }
 
-static bool grant_wishes(viewer *v, cli_error *error) {
-    const view_wishes wishes = v->state.wishes;
-    v->state.wishes = (view_wishes) { .quit = wishes.quit, .redraw = wishes.redraw };
-    if (wishes.restart && !restart(v, error))
+static bool fulfill_requests(viewer *v, base_error *error) {
+    const view_requests requests = v->state.requests;
+    v->state.requests = (view_requests) { .quit = requests.quit, .redraw = requests.redraw };
+    if (requests.restart && !restart(v, error))
         return false;
-    if (wishes.reload)
+    if (requests.reload)
         view_reload(v);
-    if (wishes.fullscreen)
+    if (requests.fullscreen)
         view_window_toggle_fullscreen(v->window);
-    if (wishes.expose && !view_expose(v, error))
+    if (requests.expose && !view_expose(v, error))
         view_say(&v->state, "%s", error->text);
-    if (wishes.save)
+    if (requests.save)
         view_save_lights(v);
-    if (wishes.record)
+    if (requests.record)
         view_toggle_recording(v);
-    return !wishes.shot || view_take_shot(v, NULL, error);
+    return !requests.shot || view_take_shot(v, NULL, error);
 }
 
 /* --- the loop --------------------------------------------------------------------------------- */
 
-/* Plays what is due; a size goes through the window. */
-static bool play_script(viewer *v, cli_error *error) {
+/* Plays the script's events that are due; a size goes through the window. */
+static bool play_script(viewer *v, base_error *error) {
     while (v->script_next < v->script.count) {
         const view_script_line *line = &v->script.lines[v->script_next];
         const bool early = line->kind == VIEW_SCRIPT_SHOT && v->good->width == 0;
         if (line->seconds > v->clock || early)
             return true;
         v->script_next++;
-        if (line->kind == VIEW_SCRIPT_SHOT) /* what follows belongs to the next frame */
+        if (line->kind == VIEW_SCRIPT_SHOT) /* later events belong to the next frame */
             return view_take_shot(v, line->text, error);
         if (line->event.kind == VIEW_SIZE)
             view_window_resize(v->window, (int)line->event.x, (int)line->event.y);
         else
             view_handle(&v->state, &line->event);
-        if (v->state.wishes.shot)
+        if (v->state.requests.shot)
             return true;
     }
     return true;
@@ -88,18 +88,18 @@ static void pass_time(viewer *v, double *before) {
     view_advance(&v->state, passed < 0.5 || view_steps_time(v) ? passed : 0.5);
 }
 
-static bool loop(viewer *v, cli_error *error) {
+static bool loop(viewer *v, base_error *error) {
     double before = view_window_clock();
     bool busy = true, worked;
-    while (!v->state.wishes.quit && (v->options->frames == 0 || v->frame < v->options->frames)) {
+    while (!v->state.requests.quit && (v->options->frames == 0 || v->frame < v->options->frames)) {
         view_window_take_events(v->window, busy || view_steps_time(v) ? 0 : 0.05);
         pass_time(v, &before);
         if (!play_script(v, error))
             return false;
         view_watch(v);
         if (gpu_context_lost())
-            v->state.wishes.restart = true;
-        if (!grant_wishes(v, error))
+            v->state.requests.restart = true;
+        if (!fulfill_requests(v, error))
             return false;
         int width, height;
         busy = worked = false;
@@ -118,36 +118,36 @@ static bool loop(viewer *v, cli_error *error) {
     return true;
 }
 
-static bool open_viewer(viewer *v, cli_error *error) {
+static bool open_viewer(viewer *v, base_error *error) {
     const view_options *o = v->options;
-    view_settings settings = o->settings;
-    const int size[2] = { settings.width, settings.height };
+    const int size[2] = { o->settings.width, o->settings.height };
     v->shown = calloc(1, sizeof *v->shown);
     v->drawn = calloc(1, sizeof *v->drawn);
     v->good = calloc(1, sizeof *v->good);
     if (!v->shown || !v->drawn || !v->good)
-        return cli_fail(error, NULL, "out of memory");
+        return base_fail(error, NULL, "out of memory");
+    view_settings *const first = v->shown; /* allocated, because it is too large for the stack */
+    memcpy(first, &o->settings, sizeof *first);
     if (o->script && !view_script_read(o->script, &v->script, error))
         return false;
-    v->seen = v->candidate = view_version_of(settings.scene);
+    v->seen = v->candidate = view_version_of(first->scene);
     v->world = view_load_scene(o->settings.scene, &o->load, &o->lights, error);
     if (!v->world)
         return false;
-    view_settings_rebase(&settings, v->world->origin);
-    if (o->camera_wanted &&
-        !scene_place_camera(v->world, &o->camera, size, &settings.camera, error))
+    view_settings_rebase(first, v->world->origin);
+    if (o->camera_wanted && !scene_place_camera(v->world, &o->camera, size, &first->camera, error))
         return false;
-    settings.camera.near = settings.camera.far = 0; /* it flies on, past the file's planes */
-    if (!view_state_open(v->world, &settings, o->animate, &v->state, error))
+    first->camera.near = first->camera.far = 0; /* it may fly past the file's planes */
+    if (!view_state_open(v->world, first, o->animate, &v->state, error))
         return false;
     if (!view_choose_environment(v, error))
         return false;
     if (o->keep_lights) {
-        view_put_lights(&v->state, settings.lights, settings.light_count);
+        view_put_lights(&v->state, first->lights, first->light_count);
         view_history_keep(&v->state.history, &v->state.now, v->state.numbers);
     }
     if (o->record && mkdir(o->record, 0777) != 0 && errno != EEXIST)
-        return cli_fail(error, o->record, "cannot be made: %s", strerror(errno));
+        return base_fail(error, o->record, "cannot be made: %s", strerror(errno));
     if (o->record)
         snprintf(v->record, sizeof v->record, "%s", o->record);
     v->state.recording = o->record != NULL;
@@ -162,10 +162,10 @@ static bool open_viewer(viewer *v, cli_error *error) {
     return true;
 }
 
-bool view_run(const view_options *options, cli_error *error) {
+bool view_run(const view_options *options, base_error *error) {
     viewer *v = calloc(1, sizeof *v);
     if (!v)
-        return cli_fail(error, NULL, "out of memory");
+        return base_fail(error, NULL, "out of memory");
     v->options = options;
     const bool ok = open_viewer(v, error) && loop(v, error);
     view_baking_stop(&v->baking);

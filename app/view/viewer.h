@@ -11,26 +11,26 @@
 #include "app/view/view.h"
 #include "app/view/window.h"
 
-/* The version of a file. */
+/* The version of a file, as its metadata tells it. */
 typedef struct version {
     long long seconds, nanoseconds, size;
 } version;
 
-/* A drawing on the screen, drawn again when what it says changes. */
+/* A drawing on the screen, redrawn when its text changes. */
 typedef struct label {
     char text[VIEW_MESSAGE_SIZE];
     double scale;
     int width, height; /* of the drawing */
-    int room;          /* it was made to fit */
+    int room;          /* width that it was made to fit */
 } label;
 
-/* What the drawings over an image show. */
+/* The contents of the drawings over an image. */
 typedef struct drawn_over {
     bool help, overlay, playing;
     int selected;
     view_panel panel;
     char message[VIEW_MESSAGE_SIZE];
-    const char *announcement; /* in place of the message, or NULL */
+    const char *announcement; /* shown in place of the message, or NULL */
 } drawn_over;
 
 typedef struct viewer {
@@ -43,22 +43,22 @@ typedef struct viewer {
     view_window *window;
     view_compositor *compositor;
     view_baking baking;
-    view_settings *shown, *drawn, *good; /* now; on the screen; last that could be drawn */
-    bool fresh;                          /* nothing of `drawn` is on the screen */
-    int sample;                          /* of the refinement, on the screen; -1: a draft */
-    int divisor;                         /* of the next draft */
-    double changed_at, frame_seconds;    /* seconds: of the last change; a moving frame took */
-    double slow_seconds; /* the frame before took, if it had the same size; else 0 */
-    bool moves;          /* the camera, from the frame before to the one on the screen */
-    double show_seconds; /* of these, scaling, drawing over it and the window */
+    view_settings *shown, *drawn, *good; /* current; on the screen; the last that could be drawn */
+    bool fresh;                          /* whether `drawn` is not on the screen yet */
+    int sample;                          /* of the refinement on the screen; -1: a preview */
+    int divisor;                         /* of the next preview */
+    double changed_at, frame_seconds;    /* seconds: of the last change; per moving frame */
+    double slow_seconds;                 /* of the frame before, if it had the same size; else 0 */
+    bool moves;                          /* whether the camera moved between the last two frames */
+    double show_seconds; /* part of these: scaling, drawings over the image, and the window */
     view_statistics statistics;
     version seen, candidate; /* of the scene file */
-    bool another;            /* scene than that of the options: its lights are its own */
+    bool another; /* whether the scene is not that of the options: it has its own lights */
     double watched_at, panel_at, clock;
     int frame, recorded;
     char record[VIEW_PATH_SIZE];
-    drawn_over over; /* the image on the screen */
-    bool waiting;    /* for slow work that the screen has announced */
+    drawn_over over; /* those on the screen */
+    bool waiting;    /* whether slow work that was announced comes next */
     label labels[GPU_DRAWINGS_MAX];
 } viewer;
 
@@ -66,54 +66,55 @@ typedef struct viewer {
 
 version view_version_of(const char *path);
 
-/* A scene with the lights that are asked for; NULL on failure. */
+/* Loads a scene with the requested lights; returns NULL on failure. */
 scene *view_load_scene(const char *name, const scene_options *load,
-                       const scene_lights_options *lights, cli_error *error);
+                       const scene_lights_options *lights, base_error *error);
 void view_free_scene(scene *world);
 
-/* The scene again, or another one. A scene that does not load leaves the one before. */
+/* Reloads the scene, or loads another one. If that fails, the current scene stays. */
 void view_reload(viewer *v);
 
-/* The window's, by the scene. */
+/* Sets the window's title from the scene. */
 void view_show_title(viewer *v);
 
-/* What surrounds the scene, by the options. */
-bool view_choose_environment(viewer *v, cli_error *error);
+/* Chooses the environment by the options and the scene. */
+bool view_choose_environment(viewer *v, base_error *error);
 
-/* Wishes to read the scene again once its file has changed and rests. */
+/* Requests a reload once the scene's file has changed and is no longer being written. */
 void view_watch(viewer *v);
 
 /* --- shots.c: files out ----------------------------------------------------------------------- */
 
-/* A screenshot; of a script where path is given: then a failure ends the viewer. */
-bool view_take_shot(viewer *v, const char *path, cli_error *error);
+/* Takes a screenshot. path: NULL, or the file of a script's shot, whose failure ends the viewer. */
+bool view_take_shot(viewer *v, const char *path, base_error *error);
 
 void view_toggle_recording(viewer *v);
 
-/* The lights as they rest, into a file that --lights reads. */
+/* Saves the lights at rest to a file that --lights reads. */
 void view_save_lights(viewer *v);
 
-/* Without --record a failure only ends the recording. */
-bool view_record_frame(viewer *v, cli_error *error);
+/* Records a frame; without --record a failure only ends the recording. */
+bool view_record_frame(viewer *v, base_error *error);
 
-/* What the program knows of itself, for tests and for the curious. */
-bool view_write_state(viewer *v, cli_error *error);
+/* Writes the state of the viewer, for tests and debugging. */
+bool view_write_state(viewer *v, base_error *error);
 
 /* --- labels.c: drawings over the image -------------------------------------------------------- */
 
-/* announcement: a message in place of the state's own, or NULL. */
+/* Draws the labels over the image. announcement: a message in place of the state's own, or NULL. */
 void view_draw_labels(viewer *v, const char *announcement);
 
 /* --- frame.c ---------------------------------------------------------------------------------- */
 
-/* Whether every frame takes a fixed step of time, so that the same script gives the same images. */
+/* Whether every frame advances time by a fixed step, so that a script always gives the same
+ * images. */
 bool view_steps_time(const viewer *v);
 
-/* Draws and shows what has changed, or refines what has not. *worked: whether there was anything to
+/* Draws and shows changed settings, or refines the image. *worked: whether there was anything to
  * show. */
-bool view_draw_frame(viewer *v, bool *worked, cli_error *error);
+bool view_draw_frame(viewer *v, bool *worked, base_error *error);
 
-/* Chooses the exposure that suits the image. */
-bool view_expose(viewer *v, cli_error *error);
+/* Determines the exposure that suits the image. */
+bool view_expose(viewer *v, base_error *error);
 
 #endif

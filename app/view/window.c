@@ -2,10 +2,35 @@
 #define GLFW_INCLUDE_NONE
 #include "app/view/window.h"
 
+#include "app/base/shared_library.h"
+
 #include <GLFW/glfw3.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* What is used of GLFW, which only the viewer opens. */
+/* clang-format off */
+#define GLFW_FUNCTIONS(X)                                                                          \
+    X(glfwCreateWindow) X(glfwDestroyWindow) X(glfwGetCursorPos) X(glfwGetFramebufferSize)         \
+    X(glfwGetKeyName) X(glfwGetPrimaryMonitor) X(glfwGetTime) X(glfwGetVersion)                    \
+    X(glfwGetVideoMode) X(glfwGetWindowAttrib) X(glfwGetWindowContentScale)                        \
+    X(glfwGetWindowMonitor) X(glfwGetWindowPos) X(glfwGetWindowSize)                               \
+    X(glfwGetWindowUserPointer) X(glfwInit) X(glfwMakeContextCurrent) X(glfwPollEvents)            \
+    X(glfwSetCharCallback) X(glfwSetCursorPosCallback) X(glfwSetDropCallback)                      \
+    X(glfwSetErrorCallback) X(glfwSetKeyCallback) X(glfwSetMouseButtonCallback)                    \
+    X(glfwSetScrollCallback) X(glfwSetWindowCloseCallback) X(glfwSetWindowFocusCallback)           \
+    X(glfwSetWindowMonitor) X(glfwSetWindowRefreshCallback) X(glfwSetWindowSize)                   \
+    X(glfwSetWindowTitle) X(glfwSetWindowUserPointer) X(glfwSwapBuffers) X(glfwSwapInterval)       \
+    X(glfwTerminate) X(glfwWaitEventsTimeout) X(glfwWindowHint)
+/* clang-format on */
+static struct { GLFW_FUNCTIONS(SHARED_LIBRARY_POINTER) } lib;
+static const char *const functions[] = { GLFW_FUNCTIONS(SHARED_LIBRARY_NAME) };
+
+static bool open_library(base_error *error) {
+    return shared_library_open(GLFW_SONAME, functions, sizeof functions / sizeof *functions, &lib,
+                               error);
+}
 
 struct view_window {
     GLFWwindow *glfw;
@@ -21,15 +46,15 @@ static void on_error(int code, const char *text) {
 }
 
 static view_state *state_of(GLFWwindow *glfw) {
-    const view_window *window = glfwGetWindowUserPointer(glfw);
+    const view_window *window = lib.glfwGetWindowUserPointer(glfw);
     return window->state;
 }
 
-/* Pixels for a unit of the pointer's coordinates. */
+/* Returns pixels per unit of the pointer's coordinates. */
 static double pixels_a_unit(GLFWwindow *glfw) {
     int units, pixels, ignored;
-    glfwGetWindowSize(glfw, &units, &ignored);
-    glfwGetFramebufferSize(glfw, &pixels, &ignored);
+    lib.glfwGetWindowSize(glfw, &units, &ignored);
+    lib.glfwGetFramebufferSize(glfw, &pixels, &ignored);
     return units > 0 && pixels > 0 ? (double)pixels / units : 1;
 }
 
@@ -67,14 +92,14 @@ static bool write_utf8(unsigned character, char text[5]) {
     return character < 0x110000;
 }
 
-/* Letters and signs as they are typed, whatever the keyboard. */
+/* Handles typed characters, whatever the keyboard. */
 static void on_character(GLFWwindow *glfw, unsigned character) {
     char text[5] = "";
     if (character > ' ' && write_utf8(character, text))
         view_handle(state_of(glfw), &(view_event) { .kind = VIEW_KEY, .text = text });
 }
 
-/* Flying goes by the position of the keys on the keyboard. */
+/* Returns the flying key by its position on the keyboard. */
 static char flying_letter(int key) {
     static const struct {
         int key;
@@ -121,7 +146,7 @@ static void on_key(GLFWwindow *glfw, int key, int position, int action, int modi
     view_state *state = state_of(glfw);
     const bool shift = modifiers & GLFW_MOD_SHIFT, control = modifiers & GLFW_MOD_CONTROL;
     const char letter = flying_letter(key);
-    const char *typed = glfwGetKeyName(key, 0);
+    const char *typed = lib.glfwGetKeyName(key, 0);
     if (control && action == GLFW_PRESS && typed && typed[0] >= 'a' && typed[0] <= 'z') {
         const char text[] = { 'C', 't', 'r', 'l', '+', (char)(typed[0] - 'a' + 'A'), '\0' };
         view_handle(state, &(view_event) { .kind = VIEW_KEY, .text = text });
@@ -139,7 +164,8 @@ static void on_key(GLFWwindow *glfw, int key, int position, int action, int modi
     view_handle(state, &(view_event) { .kind = VIEW_KEY, .text = text });
 }
 
-/* A held key whose release goes elsewhere must not fly on for ever. */
+/* Releases all keys when the focus is lost: their releases would go elsewhere, and the camera would
+ * fly on. */
 static void on_focus(GLFWwindow *glfw, int focused) {
     if (!focused) {
         view_handle(state_of(glfw), &(view_event) { .kind = VIEW_FREE });
@@ -148,139 +174,152 @@ static void on_focus(GLFWwindow *glfw, int focused) {
 }
 
 static void on_drop(GLFWwindow *glfw, int count, const char **paths) {
-    /* the pointer moved without telling while the file was dragged */
+    /* the pointer moved without events while the file was dragged */
     double x, y;
-    glfwGetCursorPos(glfw, &x, &y);
+    lib.glfwGetCursorPos(glfw, &x, &y);
     on_move(glfw, x, y);
     for (int i = 0; i < count; i++)
         view_handle(state_of(glfw), &(view_event) { .kind = VIEW_DROP, .text = paths[i] });
 }
 
 static void on_damage(GLFWwindow *glfw) {
-    state_of(glfw)->wishes.redraw = true;
+    state_of(glfw)->requests.redraw = true;
 }
 
 static void on_close(GLFWwindow *glfw) {
-    state_of(glfw)->wishes.quit = true;
+    state_of(glfw)->requests.quit = true;
 }
 
 static void listen(GLFWwindow *glfw) {
-    glfwSetCursorPosCallback(glfw, on_move);
-    glfwSetMouseButtonCallback(glfw, on_button);
-    glfwSetScrollCallback(glfw, on_scroll);
-    glfwSetCharCallback(glfw, on_character);
-    glfwSetKeyCallback(glfw, on_key);
-    glfwSetWindowFocusCallback(glfw, on_focus);
-    glfwSetDropCallback(glfw, on_drop);
-    glfwSetWindowCloseCallback(glfw, on_close);
-    glfwSetWindowRefreshCallback(glfw, on_damage);
+    lib.glfwSetCursorPosCallback(glfw, on_move);
+    lib.glfwSetMouseButtonCallback(glfw, on_button);
+    lib.glfwSetScrollCallback(glfw, on_scroll);
+    lib.glfwSetCharCallback(glfw, on_character);
+    lib.glfwSetKeyCallback(glfw, on_key);
+    lib.glfwSetWindowFocusCallback(glfw, on_focus);
+    lib.glfwSetDropCallback(glfw, on_drop);
+    lib.glfwSetWindowCloseCallback(glfw, on_close);
+    lib.glfwSetWindowRefreshCallback(glfw, on_damage);
 }
 
 /* --- the window ------------------------------------------------------------------------------- */
 
 static GLFWwindow *create(const char *title, int width, int height) {
     const char *debug = getenv("LAMPION_GL_DEBUG");
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug != NULL);
-    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);
-    glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    GLFWwindow *glfw = glfwCreateWindow(width, height, title, NULL, NULL);
+    lib.glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    lib.glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    lib.glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    lib.glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug != NULL);
+    lib.glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+    lib.glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    lib.glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    GLFWwindow *glfw = lib.glfwCreateWindow(width, height, title, NULL, NULL);
     if (glfw)
         return glfw;
-    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
-    return glfwCreateWindow(width, height, title, NULL, NULL);
+    lib.glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
+    return lib.glfwCreateWindow(width, height, title, NULL, NULL);
 }
 
 view_window *view_window_open(const char *title, int width, int height, view_state *state,
-                              cli_error *error) {
+                              base_error *error) {
+    if (!open_library(error))
+        return NULL;
     view_window *window = calloc(1, sizeof *window);
     if (!window) {
-        cli_fail(error, NULL, "out of memory");
+        base_fail(error, NULL, "out of memory");
         return NULL;
     }
-    glfwSetErrorCallback(on_error);
-    if (!glfwInit()) {
-        cli_fail(error, NULL, "no display to open a window on (%s): lampion render draws to a file",
-                 last_complaint);
+    lib.glfwSetErrorCallback(on_error);
+    if (!lib.glfwInit()) {
+        base_fail(error, NULL,
+                  "no display to open a window on (%s): lampion render draws to a file",
+                  last_complaint);
         free(window);
         return NULL;
     }
     window->state = state;
     window->glfw = create(title, width, height);
     if (!window->glfw) {
-        cli_fail(error, NULL, "no window with OpenGL 4.5 (%s): lampion render draws to a file",
-                 last_complaint);
+        base_fail(error, NULL, "no window with OpenGL 4.5 (%s): lampion render draws to a file",
+                  last_complaint);
         free(window);
         return NULL;
     }
-    glfwSetWindowUserPointer(window->glfw, window);
+    lib.glfwSetWindowUserPointer(window->glfw, window);
     listen(window->glfw);
-    glfwMakeContextCurrent(window->glfw);
-    glfwSwapInterval(1);
+    lib.glfwMakeContextCurrent(window->glfw);
+    lib.glfwSwapInterval(1);
     return window;
 }
 
 void view_window_close(view_window *window) {
     if (!window)
         return;
-    glfwDestroyWindow(window->glfw);
+    lib.glfwDestroyWindow(window->glfw);
     free(window);
 }
 
 void view_window_end(void) {
-    glfwTerminate();
+    if (lib.glfwTerminate)
+        lib.glfwTerminate();
 }
 
 void view_window_take_events(view_window *window, double seconds) {
     (void)window;
     if (seconds > 0)
-        glfwWaitEventsTimeout(seconds);
+        lib.glfwWaitEventsTimeout(seconds);
     else
-        glfwPollEvents();
+        lib.glfwPollEvents();
 }
 
 bool view_window_size(const view_window *window, int *width, int *height) {
-    glfwGetFramebufferSize(window->glfw, width, height);
-    return *width > 0 && *height > 0 && !glfwGetWindowAttrib(window->glfw, GLFW_ICONIFIED);
+    lib.glfwGetFramebufferSize(window->glfw, width, height);
+    return *width > 0 && *height > 0 && !lib.glfwGetWindowAttrib(window->glfw, GLFW_ICONIFIED);
 }
 
 double view_window_scale(const view_window *window) {
     float x = 1, y = 1;
-    glfwGetWindowContentScale(window->glfw, &x, &y);
+    lib.glfwGetWindowContentScale(window->glfw, &x, &y);
     return x > 0.25f && x < 16 ? (double)x : 1;
 }
 
 void view_window_resize(view_window *window, int width, int height) {
     const double scale = pixels_a_unit(window->glfw);
-    glfwSetWindowSize(window->glfw, (int)(width / scale + 0.5), (int)(height / scale + 0.5));
+    lib.glfwSetWindowSize(window->glfw, (int)(width / scale + 0.5), (int)(height / scale + 0.5));
 }
 
 void view_window_title(view_window *window, const char *title) {
-    glfwSetWindowTitle(window->glfw, title);
+    lib.glfwSetWindowTitle(window->glfw, title);
 }
 
 void view_window_toggle_fullscreen(view_window *window) {
     int *windowed = window->windowed;
-    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
-    const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
-    if (glfwGetWindowMonitor(window->glfw)) {
-        glfwSetWindowMonitor(window->glfw, NULL, windowed[0], windowed[1], windowed[2], windowed[3],
-                             0);
+    GLFWmonitor *monitor = lib.glfwGetPrimaryMonitor();
+    const GLFWvidmode *mode = monitor ? lib.glfwGetVideoMode(monitor) : NULL;
+    if (lib.glfwGetWindowMonitor(window->glfw)) {
+        lib.glfwSetWindowMonitor(window->glfw, NULL, windowed[0], windowed[1], windowed[2],
+                                 windowed[3], 0);
     } else if (mode) {
-        glfwGetWindowPos(window->glfw, &windowed[0], &windowed[1]);
-        glfwGetWindowSize(window->glfw, &windowed[2], &windowed[3]);
-        glfwSetWindowMonitor(window->glfw, monitor, 0, 0, mode->width, mode->height,
-                             mode->refreshRate);
+        lib.glfwGetWindowPos(window->glfw, &windowed[0], &windowed[1]);
+        lib.glfwGetWindowSize(window->glfw, &windowed[2], &windowed[3]);
+        lib.glfwSetWindowMonitor(window->glfw, monitor, 0, 0, mode->width, mode->height,
+                                 mode->refreshRate);
     }
 }
 
 void view_window_swap(view_window *window) {
-    glfwSwapBuffers(window->glfw);
+    lib.glfwSwapBuffers(window->glfw);
 }
 
 double view_window_clock(void) {
-    return glfwGetTime();
+    return lib.glfwGetTime();
+}
+
+bool view_window_version(char *text, size_t size, base_error *error) {
+    int major, minor, patch;
+    if (!open_library(error))
+        return false;
+    lib.glfwGetVersion(&major, &minor, &patch);
+    snprintf(text, size, "%d.%d.%d", major, minor, patch);
+    return true;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* window.h - a window with a context, and its input as events: all that knows GLFW. */
+/* window.h - a window with a context, and its input as events; only this module uses GLFW. A key
+ * that types no character is a row of `names` in window.c, what keys do are rows of keys.c. */
 #ifndef LAMPION_VIEW_WINDOW_H
 #define LAMPION_VIEW_WINDOW_H
 
@@ -7,22 +8,23 @@
 
 typedef struct view_window view_window;
 
-/* Opens a window and makes its context current. Events go to `state`. NULL on failure: without a
- * display the error says what to do instead. */
+/* Opens a window and makes its context current. Events go to `state`. Returns NULL on failure;
+ * without a display the error suggests what to do instead. */
 view_window *view_window_open(const char *title, int width, int height, view_state *state,
-                              cli_error *error);
+                              base_error *error);
 void view_window_close(view_window *window);
 
-/* Leaves the display; another window may be opened before, on the same connection to it. */
+/* Disconnects from the display; before that, another window may be opened on the same
+ * connection. */
 void view_window_end(void);
 
-/* Takes what has happened; waits up to `seconds` for something to happen. */
+/* Handles pending events; waits up to `seconds` for one. */
 void view_window_take_events(view_window *window, double seconds);
 
-/* Pixels of the image; false if there are none: minimized. */
+/* Finds the pixels of the image; returns false if there are none: the window is minimized. */
 bool view_window_size(const view_window *window, int *width, int *height);
 
-/* Of a pixel of 96 an inch. */
+/* Returns the scale of the display relative to 96 pixels per inch. */
 double view_window_scale(const view_window *window);
 
 void view_window_resize(view_window *window, int width, int height); /* in pixels */
@@ -30,7 +32,10 @@ void view_window_title(view_window *window, const char *title);
 void view_window_toggle_fullscreen(view_window *window);
 void view_window_swap(view_window *window);
 
-/* Seconds since the first window. */
+/* Returns the seconds since the first window was opened. */
 double view_window_clock(void);
+
+/* Writes the version of GLFW; returns false if it is not installed. */
+bool view_window_version(char *text, size_t size, base_error *error);
 
 #endif

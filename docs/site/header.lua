@@ -134,7 +134,8 @@ local function declarations(code)
     for line in (code .. '\n'):gmatch('([^\n]*)\n') do
         if skipping > 0 then
             skipping = skipping + select(2, line:gsub('{', '')) - select(2, line:gsub('}', ''))
-        elseif line:match('^#') and not line:match('^#define LMP_%u[%w_]*[%( ]') then
+        elseif line:match('^#') and not line:match('^#define LMP_%u[%w_]*[%( ]') and
+            line ~= '#define LMP_EXPERIMENTAL' then
             skipping = 0
         elseif line:match('%) {$') and not line:match('^typedef') and not line:match('^#') then
             kept[#kept + 1] = line:gsub(' {$', ';')

@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 program=$(realpath "$1")
 shift
-[ $# -gt 0 ] || set -- getting-started method cookbook cookbook-shell gallery shadows scoreboard
+[ $# -gt 0 ] || set -- getting-started method cookbook cookbook-shell gallery shadows areas scoreboard
 root=$PWD
 mkdir -p out/images
 PATH=$(dirname "$program"):$PATH

@@ -12,7 +12,7 @@ check=no
 build=$(realpath "$1")
 shift
 cd "$(dirname "$0")/../.."
-[ $# -gt 0 ] || set -- accuracy fields ggx layers
+[ $# -gt 0 ] || set -- accuracy fields ggx layers preintegration-notes shadows
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -31,6 +31,62 @@ named() {
 # paper STEP: runs a step of `lampion paper`, into $work/paper.
 paper() {
     [ -d "$work/$1" ] || "$build/lampion" paper -o "$work/$1" --step "$1" >/dev/null
+}
+
+# atrium NAME OPTION…: draws the atrium of the page on shadows as $work/NAME.exr, once.
+atrium() {
+    atrium_image=$work/$1.exr
+    shift
+    [ -f "$atrium_image" ] || "$build/lampion" render builtin:atrium --bands 8 -q "$@" -o "$atrium_image"
+}
+
+# atrium_error NAME TRUTH DIGITS: the relative error of one of these images.
+atrium_error() {
+    "$build/lampion" compare --json "$work/$1.exr" "$work/$2.exr" | sed 's/.*"relmse": //' | awk -v form="%.$3f" '{ printf form, $1 }'
+}
+
+# lobe_bounds: of the step's table, a line a bound with the numbers of 10, 20 and 100 bands.
+lobe_bounds() {
+    awk -F, '
+        NR > 1 && !($2 in seen) { seen[$2]; bound[++bounds] = $2 }
+        NR > 1 { cells[$2] = cells[$2] sprintf(" %.0f | %.2g | %.2g |", $3, $4, $5) }
+        END {
+            print "| bound asked for | 10 bands | | | 20 bands | | | 100 bands | | |"
+            print "|---|---|---|---|---|---|---|---|---|---|"
+            print "| | KB | max % | rms % | KB | max % | rms % | KB | max % | rms % |"
+            for (i = 1; i <= bounds; i++)
+                print "| " bound[i] " %" (bound[i] == 0.5 ? " (default)" : "") " |" cells[bound[i]]
+        }'
+}
+
+# material_errors: errors of preintegrated BRDFs, by the same test.
+material_errors() {
+    LAMPION_LONG=1 LAMPION_TEST='ten_materials*' "$build/tests/unit/test_unit_preintegrated_brdf" >"$work/materials" 2>&1 ||
+        { cat "$work/materials" >&2 && exit 1; }
+    printf '| material, 10 bands | MB | max %% | rms %% |\n|---|---|---|---|\n'
+    sed -n 's/^\([a-z-]*\), [0-9]* bands, .*: \([0-9.]*\) MB, .* max \([0-9.]*\) %, rms \([0-9.]*\) %$/\1 \2 \3 \4/p' "$work/materials" |
+        awk '{ printf "| sgd:%s | %.1f | %.2f | %.3f |\n", $1, $2, $3, $4 }'
+}
+
+# shadow_rays: errors of frames of one sample by rays per pixel, unfiltered and filtered.
+shadow_rays() {
+    atrium truth --size 660x332 --samples 1 --shadow-rays 1024 --no-shadow-filter
+    printf '| rays per pixel | unfiltered | filtered |\n|---|---|---|\n'
+    for rays in 1 2 4 8 16; do
+        atrium noisy-$rays --size 660x332 --samples 1 --shadow-rays $rays --no-shadow-filter
+        atrium even-$rays --size 660x332 --samples 1 --shadow-rays $rays
+        echo "| $rays | $(atrium_error noisy-$rays truth 3) | $(atrium_error even-$rays truth 3) |"
+    done
+}
+
+# shadow_samples: errors of images of eight samples.
+shadow_samples() {
+    atrium truth-8 --size 495x249 --samples 8 --shadow-rays 128 --no-shadow-filter
+    printf '| 495 x 249 | relative error |\n|---|---|\n'
+    atrium default-8 --size 495x249 --samples 8
+    atrium sparse-8 --size 495x249 --samples 8 --shadow-sparse
+    echo "| default | $(atrium_error default-8 truth-8 4) |"
+    echo "| \`--shadow-sparse\` | $(atrium_error sparse-8 truth-8 4) |"
 }
 
 # measure TABLE: prints it.
@@ -60,6 +116,13 @@ measure() {
     accuracy.bands) test_prints unit/test_unit_accuracy 'errors_grow*' | named "$1" ;;
     accuracy.surface) test_prints unit/test_unit_accuracy 'the_last_digits*' | named "$1" ;;
     fields.error) test_prints unit/test_unit_field_error '*reach*' | named "$1" ;;
+    preintegration-notes.lobes)
+        paper preintegrated
+        lobe_bounds <"$work/preintegrated/preintegrated.csv"
+        ;;
+    preintegration-notes.materials) material_errors ;;
+    shadows.rays) shadow_rays ;;
+    shadows.samples) shadow_samples ;;
     layers.sheen) test_prints unit/test_unit_brdf_sheen 'bands_come*' | named "$1" ;;
     ggx.*) test_prints unit/test_unit_ggx_lobes "$(
         case $1 in
@@ -76,7 +139,7 @@ measure() {
 # is_quick TABLE: takes no more than a few seconds.
 is_quick() {
     case $1 in
-    layers.sheen | ggx.energy) ;;
+    layers.sheen | ggx.energy | preintegration-notes.lobes) ;;
     *) return 1 ;;
     esac
 }
@@ -141,7 +204,7 @@ one() {
 failed=0
 for page in "$@"; do
     file=docs/$page.md
-    sed -n 's/^<!-- table: \([a-z.]*\) -->$/\1 2/p; s/^<!-- table: \([a-z.]*\) within \([0-9]*\) % -->$/\1 \2/p' "$file" >"$work/tables"
+    sed -n 's/^<!-- table: \([a-z.-]*\) -->$/\1 2/p; s/^<!-- table: \([a-z.-]*\) within \([0-9]*\) % -->$/\1 \2/p' "$file" >"$work/tables"
     [ "$(grep -c '^<!-- table' "$file")" = "$(wc -l <"$work/tables")" ] && [ -s "$work/tables" ] ||
         { echo "tables.sh: $file has no tables, or lines that are not understood" >&2 && exit 1; }
     while read -r table percent; do

@@ -6,6 +6,6 @@
 
 int main(void) {
     static float texels[4 * LMP_GGX_TEXELS];
-    lmp_lobe_ggx_texels(texels);
+    lmp_lobe_copy_ggx_texels(texels);
     return fwrite(texels, sizeof texels, 1, stdout) == 1 && fflush(stdout) == 0 ? 0 : 1;
 }

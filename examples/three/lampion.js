@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sphere lights of lampion.glsl in three.js' MeshStandardMaterial, and probes made by Lampion.
 import { DataTexture, FloatType, LightProbe, RGBAFormat, Vector4 } from 'three';
-const MOST = 64; // lights
+const MOST = 64; // the most lights
 
 // folder has lampion.glsl, ggx.glsl and ggx.f32, the table that ggx.glsl reads
 export async function loadLampion(folder, bands = 10) {
@@ -37,7 +37,7 @@ export async function loadLampion(folder, bands = 10) {
             });
             uniforms.lampionCount.value = Math.min(lights.length, MOST);
         },
-        // a MeshStandardMaterial, once
+        // call once for a MeshStandardMaterial
         patch(material) {
             material.onBeforeCompile = (shader) => {
                 Object.assign(shader.uniforms, uniforms);

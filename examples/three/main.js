@@ -37,7 +37,7 @@ function addBalls() {
     }
 }
 
-// The ball is not patched: a probe stands for the lights.
+// The ball is not patched, because a probe stands in for the lights.
 async function addProbe() {
     scene.add(probeOf(await (await fetch('probe.json')).json()));
     const geometry = new THREE.SphereGeometry(0.01, 96, 64);
@@ -50,7 +50,7 @@ async function addProbe() {
 
 function addOwnLights() {
     const sun = new THREE.DirectionalLight(0xffeedd, 1.5);
-    sun.add(sun.target); // as glTF wants it
+    sun.add(sun.target); // as glTF requires
     sun.target.position.set(0, 0, -1);
     sun.lookAt(-1, -2, -1);
     const bulb = new THREE.PointLight(0x80c0ff, 3);

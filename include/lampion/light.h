@@ -1,35 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion/light.h - lights, and their exact projection onto spherical harmonics.
+/* lampion/light.h - lights of every kind, and their exact projection onto spherical harmonics.
  *
- * Seen from a point, a sphere of radius r at distance d covers a spherical cap of half angle a,
- * sin a = r/d, around the direction w to its center. Uniform radiance L makes its coefficients
- *
- *     Z_l  = sqrt(pi (2l+1)) / 2 L sin²a R_l(cos a)   where z is w       (paper Eq. 12)
- *     L_lm = pi L sin²a R_l(cos a) Y_lm(w)            in any frame       (paper Eq. 13)
- *
- * with R_l the Jacobi polynomial P^(1,1)_(l-1) scaled to R_l(1) = 1, and R_0 = 2 / (1 + cos a).
- * R_l is evaluated by its differences, which keeps float32 exact for lights however small or far;
- * paper Eq. 12 as printed loses them below r/d = 0.01 (docs/accuracy.md).
- *
- * Inside the sphere (d < r) the cap goes on growing, from the hemisphere at the surface to the full
- * sphere at the center: sin²a = d²/r², cos a = -sqrt(1 - sin²a). That is a convention, not physics;
- * values are continuous everywhere, at the surface and at the center too.
- *
- * Coordinates and radii are at most LMP_LENGTH_MAX in magnitude. Lengths below 1e-18 lose digits,
- * for their squares do, and may count as 0. A release build, which asserts nothing (base.h), gives
- * finite values for finite lights and points as long as the squares of their distances are finite
- * (1e19), of no meaning where these are out of range. */
+ * Seen from a point, a light is a cap (that of a sphere, sphere.h, or one of a fixed angle), a
+ * single direction, or, if it is an area, the region that its outline bounds. The ranges of
+ * lengths, and what a release build does outside them, are those of sphere.h. */
 #ifndef LAMPION_LIGHT_H
 #define LAMPION_LIGHT_H
 
-#include <lampion/sh.h>
+#include <lampion/sphere.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* So that the square of any distance is a float32. */
-#define LMP_LENGTH_MAX 1e17f
 
 typedef enum lmp_light_kind {
     LMP_LIGHT_SPHERE = 0,  /* position, radius, radiance */
@@ -37,11 +19,29 @@ typedef enum lmp_light_kind {
     LMP_LIGHT_SPOT,        /* position, direction (axis, from the light), inner, outer, intensity */
     LMP_LIGHT_DIRECTIONAL, /* direction (to the light), irradiance */
     LMP_LIGHT_CAP,         /* direction (to the light), angle, radiance: a sun */
-    LMP_LIGHT_HEMISPHERE   /* direction (up), radiance above, ground below: a sky */
+    LMP_LIGHT_HEMISPHERE,  /* direction (up), radiance above, ground below: a sky */
+    /* areas */
+    LMP_LIGHT_RECTANGLE, /* position, half[0] and [1], two_sided, radiance */
+    LMP_LIGHT_DISK,      /* position, direction (normal), radius, two_sided, radiance */
+    LMP_LIGHT_TUBE,      /* position, half[0], radius, radiance */
+    LMP_LIGHT_POLYGON    /* position, corner_count, corner[0] …, two_sided, radiance */
 } lmp_light_kind;
-#define LMP_LIGHT_KINDS (LMP_LIGHT_HEMISPHERE + 1) /* of the last one */
+#define LMP_LIGHT_KIND_COUNT (LMP_LIGHT_POLYGON + 1)
 
-/* A light; zero-initialize it and set the members its kind names. Unused members are ignored. */
+/* A light. Zero-initialize it and set the members listed for its kind; the others are ignored.
+ *
+ * Areas shine with the same radiance in all directions: a rectangle, a disk or a polygon from the
+ * side of its normal, or from both if two_sided, and not along its own plane. The position of the
+ * first three is their center, and
+ *
+ *   rectangle   half[0] and half[1] lead from it to the middles of two adjacent sides, at any angle
+ *               to each other; the normal is that of half[0] x half[1]
+ *   tube        half[0] leads from it to an end of the axis; the tube is all that lies within the
+ *               radius of the axis, so its ends are round. Inside, it is the sphere of that radius
+ *               around the nearest point of the axis
+ *   polygon     corners are relative to the position, in a plane, and counter-clockwise as seen
+ *               from the side of the normal; the sides must not cross */
+#define LMP_LIGHT_CORNERS_MAX 8
 typedef struct lmp_light {
     lmp_light_kind kind;
     lmp_vec3 position;
@@ -54,103 +54,80 @@ typedef struct lmp_light {
         lmp_rgb intensity;  /* W·sr⁻¹ */
         lmp_rgb irradiance; /* W·m⁻², on a surface that faces the light */
     };
-    lmp_rgb ground; /* radiance of a hemisphere light's lower half */
+    lmp_rgb ground;   /* radiance of a hemisphere light's lower half */
+    bool two_sided;   /* whether an area shines from both sides */
+    int corner_count; /* 3 … LMP_LIGHT_CORNERS_MAX */
+    union {
+        lmp_vec3 half[2];
+        lmp_vec3 corner[LMP_LIGHT_CORNERS_MAX];
+    };
 } lmp_light;
 
-/* What any light is from one point: a cap of at most a hemisphere, plus ambient light,
+/* A light that is not an area, as seen from one point: a cap of at most a hemisphere, plus ambient
+ * light,
  *
  *     L_lm = strength R_l(1 - one_minus_cos) Y_lm(axis)  +  2 sqrt(pi) ambient  for l = m = 0
  *
- *   sphere, cap      strength pi L sin²a. Seen as more than a hemisphere (from inside a sphere, or
- *                    angle > pi/2): ambient L less the complementary cap, so strength is negative
- *                    and the axis points away from the light
+ *   sphere, cap      strength pi L sin²a. If it covers more than a hemisphere (from inside a
+ *                    sphere, or angle > pi/2): ambient L minus the complementary cap, so strength
+ *                    is negative and the axis points away from the light
  *   point            a Dirac (one_minus_cos 0) of strength intensity / d²
- *   spot             the same, times saturate((cos - cos outer) / (cos inner - cos outer))² of the
- *                    angle off its axis (as glTF's KHR_lights_punctual; the difference is held to
- *                    1e-3 and up)
+ *   spot             as a point, times saturate((cos - cos outer) / (cos inner - cos outer))²,
+ *                    cos being that of the angle from the axis (as in glTF's KHR_lights_punctual;
+ *                    the denominator is clamped to at least 1e-3)
  *   directional      a Dirac of strength irradiance
  *   hemisphere       one_minus_cos 1, strength pi (radiance - ground), ambient ground
  *
- * A point or spot light closer than LMP_POINT_DISTANCE_MIN counts as that far; at d = 0 the axis is
- * z. */
+ * A point or spot light closer than LMP_POINT_DISTANCE_MIN is treated as being that far away; at
+ * d = 0 the axis is z. */
 #define LMP_POINT_DISTANCE_MIN 1e-6f
 typedef struct lmp_cap {
     lmp_vec3 axis;       /* unit */
     float sin2;          /* sin²a, exact however small; 0 for a Dirac */
     float one_minus_cos; /* 1 - cos a in 0 … 1, exact however small; 0 for a Dirac */
-    lmp_rgb strength;    /* see above */
+    lmp_rgb strength;    /* as listed above for each kind */
     lmp_rgb ambient;     /* radiance from every direction */
 } lmp_cap;
 
-/* The cap that `light` is from `point`, at any distance. */
-LMP_API void lmp_light_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap);
-
-/* --- one sphere ------------------------------------------------------------------------------- */
-
-/* Zonal coefficients Z_l of a sphere of unit radiance (paper Eq. 12).
- *
- * radius >= 0, distance >= 0; zonal receives `bands` values, in the frame whose z points to the
- * center (inside as well) */
-LMP_API void lmp_sphere_zonal(int bands, float radius, float distance, float *zonal);
-
-/* Coefficients at `point` of a sphere of unit radiance (paper Eq. 12 and 13 in one).
- *
- * radius >= 0; sh receives LMP_SH_COUNT(bands) values */
-LMP_API void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
-                                float *sh);
-
-/* The same in double, for research (sh.h). */
-LMP_API void lmp_sphere_project_double(int bands, const double center[3], double radius,
-                                       const double point[3], double *sh);
-
-/* lmp_sphere_project, with the derivatives of every coefficient by the point's position.
- *
- * gradient receives three planes of LMP_SH_COUNT(bands) values: d/dx, d/dy, d/dz. The derivative
- * is infinite on the sphere's surface: its 1/|cos a| is held to 1/LMP_COS_MIN. At the center the
- * direction is taken as z. radius and distance not both 0 */
-#define LMP_COS_MIN 0.02f
-LMP_API void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
-                                         float *sh, float *gradient);
+/* Finds the cap of `light`, which must not be an area, as seen from `point`, at any distance. */
+LMP_API void lmp_light_find_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap);
 
 /* --- any light -------------------------------------------------------------------------------- */
 
-/* Zonal coefficients at `point` of a light of unit strength, and the axis they are around: towards
- * the light (a hemisphere light: up).
+/* Computes the zonal coefficients at `point` of a light of unit strength, and their axis, which
+ * points to the light (for a hemisphere light, up).
  *
- * zonal receives `bands` values for radiance, intensity or irradiance 1 (a hemisphere light: for
- * radiance 1 above and 0 below); multiply by the light's color */
-LMP_API void lmp_light_zonal(int bands, const lmp_light *light, lmp_vec3 point, float *zonal,
-                             lmp_vec3 *axis);
+ * light must not be an area, whose coefficients around an axis are not all zonal; zonal receives
+ * `bands` values for radiance, intensity or irradiance 1 (for a hemisphere light, radiance 1 above
+ * and 0 below); multiply by the light's color */
+LMP_API void lmp_light_project_zonal(int bands, const lmp_light *light, lmp_vec3 point,
+                                     float *zonal, lmp_vec3 *axis);
 
-/* RGB coefficients at `point` of the sum of `count` lights.
+/* Projects the sum of `count` lights onto RGB coefficients at `point`.
  *
  * sh receives three planes, red green blue, of LMP_SH_COUNT(bands) values; count may be 0 */
 LMP_API void lmp_light_project(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                                float *sh);
 
-/* The same to channels wherever they are, LMP_SH_COUNT(bands) values each: a probe whose planes are
- * padded, or one channel alone. Of those that are NULL nothing is written. */
+/* Projects the sum of `count` lights as lmp_light_project does, into channels anywhere in memory,
+ * LMP_SH_COUNT(bands) values each: those of a probe with padded planes, say, or a single channel. A
+ * channel that is NULL is not written. */
 LMP_API void lmp_light_project_channels(int bands, const lmp_light *lights, size_t count,
                                         lmp_vec3 point, float *red, float *green, float *blue);
 
-/* Irradiance, W·m⁻², at `point` of a surface that faces `normal`, of the sum of `count` lights: no
- * series but the closed form of a cap that the surface's horizon may cut, exact to 1e-6 of what the
- * lights give a surface that faces them. Ambient light counts pi times.
+/* Computes the irradiance, W·m⁻², of the sum of `count` lights on a surface at `point` that faces
+ * `normal`. It is not a series but the closed form for a cap or an outline that the surface's
+ * horizon may cut, exact to 1e-6 of the irradiance on a surface that faces the lights. Ambient
+ * light contributes pi times its radiance.
  *
  * normal must be unit; count may be 0 */
 LMP_API lmp_rgb lmp_light_irradiance(const lmp_light *lights, size_t count, lmp_vec3 point,
                                      lmp_vec3 normal);
 
 /* --- batches (sh.h) -----------------------------------------------------------------------------
- * Distances and radii are 0 or in 1e-15 … 1e15; geometry is otherwise free, as above. */
+ * Distances and radii are 0 or in 1e-15 … 1e15; otherwise geometry is unrestricted, as above. */
 
-/* Sphere lights, wherever their members are: lmp_spheres_of reads an array of lmp_light. Stride 0
- * makes one value serve all. */
-typedef struct lmp_spheres {
-    lmp_vec3_array center;
-    lmp_float_array radius;
-    lmp_vec3_array radiance; /* red, green, blue */
-} lmp_spheres;
+/* Describes the spheres of an array of lights, which may be NULL if it is empty. */
 static inline lmp_spheres lmp_spheres_of(const lmp_light *lights) {
     lmp_spheres spheres = { { NULL, NULL, NULL, sizeof(lmp_light) },
                             { NULL, sizeof(lmp_light) },
@@ -167,89 +144,61 @@ static inline lmp_spheres lmp_spheres_of(const lmp_light *lights) {
     return spheres;
 }
 
-/* lmp_sphere_zonal of many pairs of radius and distance: `bands` values an element. */
-LMP_API void lmp_sphere_zonal_n(int bands, lmp_float_array radii, lmp_float_array distances,
-                                size_t count, lmp_sh_layout layout, size_t stride, float *zonal);
-
-/* lmp_sphere_project of sphere i at point i: LMP_SH_COUNT(bands) values an element, for radiance 1;
- * radiance is not read. */
-LMP_API void lmp_sphere_project_n(int bands, const lmp_spheres *spheres, lmp_vec3_array points,
-                                  size_t count, lmp_sh_layout layout, size_t stride, float *sh);
-
-/* The same for every pair: element p * sphere_count + i is sphere i at point p. */
-LMP_API void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere_count,
-                                    lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
-                                    size_t stride, float *sh);
-
-/* lmp_light_project of the same spheres at many points: 3 * LMP_SH_COUNT(bands) values an element,
- * red, then green, then blue. Spheres are added in their order: the bits of a point do not depend
- * on the other points of the call. Scratch (base.h) pays from 16 bands on. */
-LMP_API void lmp_sphere_accumulate_n(const lmp_scratch *scratch, int bands,
-                                     const lmp_spheres *spheres, size_t sphere_count,
-                                     lmp_vec3_array points, size_t point_count,
-                                     lmp_sh_layout layout, size_t stride, float *sh);
-
-/* The same of what comes past your own blockers: visibility[i * point_count + p], 0 … 1, of sphere
- * i at point p multiplies its light there; NULL: all comes, the same bits. */
-LMP_API void lmp_sphere_accumulate_visible_n(const lmp_scratch *scratch, int bands,
-                                             const lmp_spheres *spheres, size_t sphere_count,
-                                             const float *visibility, lmp_vec3_array points,
-                                             size_t point_count, lmp_sh_layout layout,
-                                             size_t stride, float *sh);
-
-/* lmp_sphere_accumulate_n, and the derivatives by the point's position, as
- * lmp_sphere_project_gradient: gradient receives 9 * LMP_SH_COUNT(bands) values an element, d/dx of
- * red, green, blue, then d/dy, d/dz. */
-LMP_API void lmp_sphere_accumulate_gradient_n(const lmp_scratch *scratch, int bands,
-                                              const lmp_spheres *spheres, size_t sphere_count,
-                                              lmp_vec3_array points, size_t point_count,
-                                              lmp_sh_layout layout, size_t stride, float *sh,
-                                              size_t gradient_stride, float *gradient);
-
-/* lmp_light_project at many points: 3 * LMP_SH_COUNT(bands) values an element, red, then green,
- * then blue, of the sum of lights of any kinds. visibility as above, for every light; NULL: all
- * comes, the same bits.
+/* Sums lights of any kinds at many points, as lmp_light_project does at one: 3 *
+ * LMP_SH_COUNT(bands) values per element, red, then green, then blue. visibility[i * point_count +
+ * p], 0 … 1, multiplies light i at point p; NULL gives the same bits as 1 everywhere.
  *
- * Sums have one order, whatever points a call is about: spheres alone are added as
- * lmp_sphere_accumulate_n adds them, to the bit. Of other lights those at positions come first, in
- * groups of LMP_LIGHT_GROUP whose sums are added one after the other, then the others one by one,
- * whose coefficients are the same everywhere and are found once for many points. */
+ * The order of summation does not depend on which points a call covers. If all lights are spheres,
+ * they are added as lmp_sphere_sum_n adds them, to the bit. Otherwise spheres, points and spots
+ * come first, in groups of LMP_LIGHT_GROUP whose sums are added in order; the rest follow one by
+ * one. The coefficients of those without a position, which are the same everywhere, are computed
+ * once for many points, those of areas point by point. */
 #define LMP_LIGHT_GROUP 32
 LMP_API void lmp_light_project_n(const lmp_scratch *scratch, int bands, const lmp_light *lights,
                                  size_t light_count, const float *visibility, lmp_vec3_array points,
-                                 size_t point_count, lmp_sh_layout layout, size_t stride,
-                                 float *sh);
+                                 size_t point_count, lmp_sh_array sh);
 
-/* The same added to what sh holds: lights that are switched on. One whose colors are negated is
- * taken away again, up to rounding, of each time 2^-23 of the most that sh held. */
+/* Adds lights to the coefficients that sh already holds, for example when lights are switched on;
+ * the arguments are those of lmp_light_project_n. Adding a light with negated colors removes it
+ * again, up to a rounding error, each time, of 2^-23 of the largest value that sh held. */
 LMP_API void lmp_light_add_n(const lmp_scratch *scratch, int bands, const lmp_light *lights,
                              size_t light_count, const float *visibility, lmp_vec3_array points,
-                             size_t point_count, lmp_sh_layout layout, size_t stride, float *sh);
+                             size_t point_count, lmp_sh_array sh);
 
-/* --- lights that do not matter ------------------------------------------------------------------
- */
+/* --- negligible lights ------------------------------------------------------------------------ */
 
-/* The distance from its position beyond which a light gives any surface at most this irradiance, in
- * every channel; so much, too, is the error of leaving it out there. That of n bands of its
- * coefficients, the root of the sum of their squares, is then at most n / sqrt(pi) times as much,
- * and half of that where the light looks small. Irradiances of lights left out add up.
+/* Returns the distance from a light's position beyond which it gives any surface at most this
+ * irradiance in every channel. Leaving it out there causes no larger an error in irradiance. The
+ * error in n bands of coefficients, as the root of the sum of squares, is at most n / sqrt(pi)
+ * times as large, and half that where the light appears small. The irradiances of all lights left
+ * out add up.
  *
- * irradiance > 0. 0: it is never more. INFINITY: the light has no position, and is more everywhere
- */
+ * irradiance > 0. Returns 0 if the light never gives more, INFINITY if it has no position and gives
+ * more everywhere */
 LMP_API float lmp_light_range(const lmp_light *light, float irradiance);
+
+/* --- shaders ---------------------------------------------------------------------------------- */
+
+/* Writes the LMP_AREA_TEXELS texels of 4 values by which area.glsl, which says what they are,
+ * lights with `area`, a light that must be one. A rectangle needs the first 7 only, a polygon 3
+ * more than it has corners, disks and tubes 3; the rest are 0. */
+#define LMP_AREA_TEXELS (3 + LMP_LIGHT_CORNERS_MAX)
+LMP_EXPERIMENTAL LMP_API void lmp_light_copy_area_texels(const lmp_light *area, float *texels);
 
 /* --- units ------------------------------------------------------------------------------------ */
 
-/* Of a sphere with uniform radiance L: power 4 pi² r² L, intensity pi r² L, both exact at any
- * distance. radius > 0. */
-LMP_API float lmp_sphere_power_from_radiance(float radiance, float radius);
-LMP_API float lmp_sphere_radiance_from_power(float power, float radius);
-LMP_API float lmp_sphere_intensity_from_radiance(float radiance, float radius);
-LMP_API float lmp_sphere_radiance_from_intensity(float intensity, float radius);
+/* Convert between the radiance L of a cap of half angle `angle` and its normal irradiance pi sin²a
+ * L. 0 < angle <= pi/2. */
+LMP_API float lmp_light_cap_irradiance_from_radiance(float radiance, float angle);
+LMP_API float lmp_light_cap_radiance_from_irradiance(float irradiance, float angle);
 
-/* Of a cap of half angle `angle` <= pi/2: normal irradiance pi sin²a L. angle > 0. */
-LMP_API float lmp_cap_irradiance_from_radiance(float radiance, float angle);
-LMP_API float lmp_cap_radiance_from_irradiance(float irradiance, float angle);
+/* Convert between the radiance L of an area and its power, pi L times all of its surface that
+ * shines, or its largest intensity, L times the largest area that it turns to any direction. Of the
+ * light, which must be an area of more than 0, its color is not read. */
+LMP_API float lmp_light_power_from_radiance(const lmp_light *area, float radiance);
+LMP_API float lmp_light_radiance_from_power(const lmp_light *area, float power);
+LMP_API float lmp_light_intensity_from_radiance(const lmp_light *area, float radiance);
+LMP_API float lmp_light_radiance_from_intensity(const lmp_light *area, float intensity);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The basis, its rotation and its products. */
+/* Tables of the basis, its rotation and its products. */
 #include "ruler/vectors/harmonics.h"
 #include "ruler/vectors/tables.h"
 
@@ -10,7 +10,7 @@
 
 /* --- values of the basis ---------------------------------------------------------------------- */
 
-/* Axes, then near the poles, then anywhere; of any length. */
+/* Chooses directions: axes, then near the poles, then anywhere; of any length. */
 static void direction(int row, double w[3]) {
     static const double axes[6][3] = { { 1, 0, 0 },  { -1, 0, 0 }, { 0, 1, 0 },
                                        { 0, -1, 0 }, { 0, 0, 1 },  { 0, 0, -1 } };
@@ -57,7 +57,7 @@ void vectors_basis_row(int row) {
     mag_clear(bound);
 }
 
-/* One band a row, as wide as the widest: empty columns are 0. */
+/* A row holds one band, and is as wide as the widest: unused columns are 0. */
 void vectors_basis_128_header(void) {
     printf("x,y,z,l,");
     vectors_print_names("Y", 255);
@@ -90,7 +90,7 @@ typedef struct rotated {
     int l, m;
 } rotated;
 
-/* The matrix of a quaternion x, y, z, w of integers, of any length. */
+/* Computes the matrix of a quaternion x, y, z, w of integers, of any length. */
 static void matrix_of(arb_ptr matrix, const double q[4]) {
     const double x = q[0], y = q[1], z = q[2], w = q[3], all = x * x + y * y + z * z + w * w;
     const double r[9] = { w * w + x * x - y * y - z * z, 2 * (x * y - z * w),
@@ -104,7 +104,7 @@ static void matrix_of(arb_ptr matrix, const double q[4]) {
     }
 }
 
-/* Band l of f(R' w), times Y_lm(w): other bands do not mix with it. */
+/* Evaluates band l of f(R' w), times Y_lm(w); other bands do not mix with it. */
 static void rotated_at(arb_t value, arb_srcptr w, void *user) {
     const rotated *const r = user;
     arb_ptr v = _arb_vec_init(3);
@@ -161,7 +161,7 @@ void vectors_rotation_row(int row) {
     _arb_vec_clear(r.matrix, 9);
 }
 
-/* Coefficients Y_lm(p) are a band of a peak at p; rotated, it is one at R p. */
+/* Coefficients Y_lm(p) are a band of a peak at p; rotated, they are a peak at R p. */
 enum { ROTATED_WIDTH = 2 * 127 + 1 };
 
 void vectors_rotation_128_header(void) {
@@ -204,7 +204,7 @@ void vectors_rotation_128_row(int row) {
 
 /* --- products --------------------------------------------------------------------------------- */
 
-/* The basis at all directions of the quadrature, in the order in which it asks. */
+/* The basis at all directions of the quadrature, in the order of its evaluations. */
 typedef struct product {
     int bands;
     arb_ptr basis; /* directions times bands² */
@@ -248,7 +248,8 @@ static void print_product_header(int bands) {
     printf("bound\n");
 }
 
-/* Of three series of n bands: a polynomial of degree 3n - 3, for which so many nodes are exact. */
+/* Prints the product of two series. Each coefficient integrates three series of n bands, a
+ * polynomial of degree 3n - 3, for which the nodes are exact. */
 static void print_product(int bands, int seed) {
     enum { MOST = 12 };
     const int count = bands * bands, nodes = (3 * bands - 1) / 2;

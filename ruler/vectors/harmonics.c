@@ -9,7 +9,8 @@
 
 /* --- the basis -------------------------------------------------------------------------------- */
 
-/* With e^(i phi) = (x + iy)/s given, not phi: Y_l^|m| of phi 0, times cos m phi or sin m phi. */
+/* e^(i phi) = (x + iy)/s is given, not phi: Y_l^|m| at phi 0 is multiplied by cos m phi or sin m
+ * phi. */
 void harmonics_at(acb_t value, int l, int m, acb_srcptr w) {
     acb_t s, theta, power, other, zero;
     acb_init(s);
@@ -21,7 +22,7 @@ void harmonics_at(acb_t value, int l, int m, acb_srcptr w) {
     acb_addmul(s, w + 1, w + 1, BITS);
     acb_sqrt(s, s, BITS);
     if (acb_is_zero(s)) {
-        /* a pole: arg's balls of a zero would be all angles */
+        /* At a pole the argument of a ball that contains 0 could be any angle. */
         arb_atan2(acb_realref(theta), acb_realref(s), acb_realref(w + 2), BITS);
         acb_one(power);
     } else {
@@ -131,7 +132,7 @@ void harmonics_sphere(acb_t value, int l, int m, const double center[3], double 
     if (inside)
         acb_neg(ratio, ratio);
     harmonics_cap(value, l, ratio);
-    /* at its center a sphere is the same all over */
+    /* At its center a sphere looks the same in all directions. */
     if (acb_is_zero(squared))
         acb_one(w + 2);
     harmonics_at(y, l, m, w);

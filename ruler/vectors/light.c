@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Spheres, from outside and inside, their gradients, and caps. */
+/* Tables of spheres, from outside and inside, of their gradients, and of caps. */
 #include "ruler/vectors/harmonics.h"
 #include "ruler/vectors/tables.h"
 
@@ -12,8 +12,8 @@ typedef struct sphere {
     double center[3], radius, point[3];
 } sphere;
 
-/* Positions in parts of 1024, so that differences are exact; the radius a float of about `ratio`
- * times the distance. */
+/* Makes a sphere with its position in units of 1/1024, so that differences are exact; the radius is
+ * a float of about `ratio` times the distance. */
 static sphere sphere_of(int row, double ratio) {
     sphere s;
     double squared = 0;
@@ -26,7 +26,8 @@ static sphere sphere_of(int row, double ratio) {
     return s;
 }
 
-/* 0.999, and then from 0.95 down to a millionth. */
+/* Makes a sphere seen from outside: the first rows have ratio 0.999, the others from 0.95 down to a
+ * millionth. */
 static sphere outside(int row) {
     return sphere_of(200 + row, row <= 3 ? 0.999 : pow(10, -6 * (row - 4) / 57.0) * 0.95);
 }
@@ -122,7 +123,7 @@ void vectors_gradient_row(int row) {
     mag_clear(bound);
 }
 
-/* Every eleventh coefficient of three bands, and its gradient. */
+/* The tables keep every eleventh coefficient of three bands, and its gradient. */
 enum { STEP = 11, KEPT = 2 * (127 / STEP) + 1 };
 
 void vectors_sphere_128_header(void) {
@@ -134,7 +135,8 @@ void vectors_sphere_128_header(void) {
     printf("bound\n");
 }
 
-/* Of m = 11 (k - KEPT/2) of band l, 0 where there is none; k is along which axis, or -1. */
+/* Prints the coefficients m = 11 (k - KEPT/2) of band l, 0 where there is none, or their
+ * derivatives along an axis; axis -1 means the values. */
 static void print_spread(const sphere *s, int l, int axis, mag_t bound) {
     double center[3];
     acb_t value, none;
@@ -175,7 +177,7 @@ void vectors_zonal_header(void) {
     printf("bound\n");
 }
 
-/* sqrt((2l + 1)/(4 pi)) of the cap's integral; the ratio is a float. */
+/* A row has sqrt((2l + 1)/(4 pi)) times the cap's integral; the ratio is a float. */
 void vectors_zonal_row(int row) {
     static const double first[4] = { 0.999, 0.99, 0.9, 0.7 };
     const double ratio = (double)(float)(row <= 4 ? first[row - 1] : pow(10, -(row - 4) / 3.0));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What lobes of a cosine's power and of a spherical Gaussian do to each band, and the coefficients
- * of diffuse and Phong's reflection at a view. */
+/* Tables of the factors of each band for lobes of a cosine's power and of a spherical Gaussian, and
+ * of the coefficients of diffuse and Phong reflection at a view. */
 #include "ruler/vectors/harmonics.h"
 #include "ruler/vectors/tables.h"
 
@@ -14,7 +14,7 @@
 
 enum { DEGREES = 32 };
 
-/* The integral of t^e P_l(t) over 0 … 1, by the powers of P_l: P_l = 2^-l sum (-1)^k C(l,k)
+/* Computes the integral of t^e P_l(t) over 0 … 1 by the powers of P_l: P_l = 2^-l sum (-1)^k C(l,k)
  * C(2l-2k,l) t^(l-2k). */
 static void of_power(arb_t value, const arb_t e, int l) {
     arb_t term, below;
@@ -40,7 +40,7 @@ static void of_power(arb_t value, const arb_t e, int l) {
     fmpz_clear(second);
 }
 
-/* I_(l+1/2)(k) / I_(1/2)(k). */
+/* Computes I_(l+1/2)(k) / I_(1/2)(k). */
 static void of_gaussian(arb_t value, const arb_t sharpness, int l) {
     arb_t order, zeroth;
     arb_init(order);
@@ -107,7 +107,7 @@ enum { BANDS = 10, COUNT = BANDS * (BANDS + 1) / 2, LEAST = 64, MOST = 112 };
  * is at most e^(N 2.95); by theorem 19.3 of Trefethen n nodes err by less than 40 times that times
  * 4^(2 - 2n): below 1e-18 for the degrees here. */
 typedef struct reflection {
-    int exponent; /* 0: diffuse */
+    int exponent; /* 0 for diffuse reflection */
     double view;
 } reflection;
 
@@ -124,7 +124,7 @@ static void node_of(arb_t x, arb_t weight, int n, int i, const arb_t low, const 
     arb_clear(half);
 }
 
-/* Adds one node: `weight` has both rules'. */
+/* Adds one node; `weight` includes both rules' weights. */
 static void add_node(arb_ptr sums, const reflection *r, const arb_t t, const arb_t p,
                      const arb_t weight) {
     arb_ptr w = _arb_vec_init(3);
@@ -201,7 +201,7 @@ void vectors_table_header(void) {
     printf("bound\n");
 }
 
-/* Exponent 0 is diffuse, 1/pi; others (e + 2)/(2 pi) max(w·r, 0)^e. */
+/* Exponent 0 is diffuse, 1/pi; others are (e + 2)/(2 pi) max(w·r, 0)^e. */
 void vectors_table_row(int row) {
     static const int exponents[4] = { 0, 1, 10, 60 };
     const reflection r = { exponents[(row - 1) % 4], (row - 1) / 4 * 0.375 };

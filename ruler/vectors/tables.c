@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#define VECTORS_NOTHING 1e-40 /* what is 0 but for rounding */
+#define VECTORS_NOTHING 1e-40 /* the size of values that are 0 except for rounding */
 
 const vectors_table vectors_tables[] = {
     { "basis", 40, vectors_basis_header, vectors_basis_row },
@@ -55,7 +55,7 @@ void vectors_print_bound(mag_t bound) {
     fflush(stdout);
 }
 
-/* SplitMix64 of both numbers. */
+/* Mixes both numbers by SplitMix64. */
 double vectors_fraction(int row, int k) {
     uint64_t z =
         ((uint64_t)(unsigned)row << 32 | (unsigned)k) * 0x9e3779b97f4a7c15u + 0x9e3779b97f4a7c15u;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* tables.h - the tables of ruler/vectors, a row of this one each. */
+/* tables.h - the tables of ruler/vectors, each described by one row. */
 #ifndef LAMPION_VECTORS_TABLES_H
 #define LAMPION_VECTORS_TABLES_H
 
@@ -9,22 +9,22 @@ typedef struct vectors_table {
     const char *name;
     int rows;
     void (*print_header)(void);
-    void (*print_row)(int row); /* from 1 */
+    void (*print_row)(int row); /* row counts from 1 */
 } vectors_table;
 extern const vectors_table vectors_tables[]; /* ended by a name of NULL */
 
 /* --- what the tables are printed with --------------------------------------------------------- */
 
-/* "prefix_0,prefix_1,…," */
+/* Prints "prefix_0,prefix_1,…,". */
 void vectors_print_names(const char *prefix, int count);
 void vectors_print_inputs(const double *inputs, int count);
 
-/* Values as the nearest doubles, which `bound` is widened to cover; then the bound and a newline.
- */
+/* Print values as the nearest doubles, and widen `bound` to cover them; then the bound and a
+ * newline. */
 void vectors_print_value(const arb_t value, mag_t bound);
 void vectors_print_bound(mag_t bound);
 
-/* Number k of a row: a fraction of 20 bits in 0 … 1, the same on every machine. */
+/* Returns number k of a row: a fraction of 20 bits in 0 … 1, the same on every machine. */
 double vectors_fraction(int row, int k);
 
 void vectors_basis_header(void), vectors_basis_row(int row);

@@ -5,14 +5,14 @@
 
 #include <lampion/base.h>
 
-static inline float lmp_element(const float *first, size_t stride, size_t i) {
+static inline float lmpi_element(const float *first, size_t stride, size_t i) {
     return *(const float *)(const void *)((const char *)first + i * stride);
 }
 
-static inline lmp_vec3 lmp_vec3_element(const lmp_vec3_array *array, size_t i) {
-    return (lmp_vec3) { lmp_element(array->x, array->stride, i),
-                        lmp_element(array->y, array->stride, i),
-                        lmp_element(array->z, array->stride, i) };
+static inline lmp_vec3 lmpi_vec3_element(const lmp_vec3_array *array, size_t i) {
+    return (lmp_vec3) { lmpi_element(array->x, array->stride, i),
+                        lmpi_element(array->y, array->stride, i),
+                        lmpi_element(array->z, array->stride, i) };
 }
 
 #endif

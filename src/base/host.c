@@ -34,7 +34,7 @@ static bool default_cancelled(void *user) {
     return false;
 }
 
-lmp_host lmp_host_resolve(const lmp_host *host) {
+lmp_host lmpi_host_resolve(const lmp_host *host) {
     lmp_host resolved = host ? *host : (lmp_host) { 0 };
     assert(!resolved.allocate == !resolved.release);
     if (!resolved.allocate) {
@@ -50,24 +50,24 @@ lmp_host lmp_host_resolve(const lmp_host *host) {
     return resolved;
 }
 
-void *lmp_allocate(const lmp_host *host, size_t size) {
+void *lmpi_allocate(const lmp_host *host, size_t size) {
     return host->allocate(size, host->user);
 }
 
-void lmp_release(const lmp_host *host, void *memory) {
+void lmpi_release(const lmp_host *host, void *memory) {
     host->release(memory, host->user);
 }
 
-void lmp_release_object(void *object) {
+void lmpi_release_object(void *object) {
     if (!object)
         return;
     const lmp_host host = *(const lmp_host *)object;
-    lmp_release(&host, object);
+    lmpi_release(&host, object);
 }
 
 /* --- long work -------------------------------------------------------------------------------- */
 
-lmp_result lmp_host_report(const lmp_host *host, double done) {
+lmp_result lmpi_host_report(const lmp_host *host, double done) {
     host->progress(done, host->user);
     return host->cancelled(host->user) ? LMP_ERROR_CANCELLED : LMP_OK;
 }
@@ -76,14 +76,15 @@ typedef struct run {
     const lmp_host *host;
     double from, to;
     size_t count;
-    lmp_host_task task;
+    lmpi_host_task task;
     void *data;
     atomic_size_t done;
-    atomic_int result; /* lmp_result: of the last task that failed */
+    atomic_int result; /* lmp_result of the last task that failed */
     atomic_flag reporting;
 } run;
 
-/* One thread reports while the others go on: calls of the host never overlap, and never fall. */
+/* Runs tasks; one thread reports while the others go on, so reports never overlap and never fall.
+ */
 static void report_tasks(run *r) {
     if (atomic_flag_test_and_set(&r->reporting))
         return;
@@ -108,8 +109,8 @@ static void run_task(size_t index, void *data) {
     report_tasks(r);
 }
 
-lmp_result lmp_host_run(const lmp_host *host, double from, double to, size_t count,
-                        lmp_host_task task, void *data) {
+lmp_result lmpi_host_run(const lmp_host *host, double from, double to, size_t count,
+                         lmpi_host_task task, void *data) {
     run r = { .host = host,
               .from = from,
               .to = to,

@@ -1,60 +1,62 @@
 /* SPDX-License-Identifier: MIT */
-/* unroll.h - what the compilers are told of loops and functions whose speed matters. */
+/* unroll.h - hints to compilers about loops and functions whose speed matters. */
 #ifndef LAMPION_BASE_UNROLL_H
 #define LAMPION_BASE_UNROLL_H
 
-#define LMP_INLINE   static inline __attribute__((always_inline))
-#define LMP_NOINLINE __attribute__((noinline))
+#define LMPI_INLINE   static inline __attribute__((always_inline))
+#define LMPI_NOINLINE __attribute__((noinline))
 
-/* Unrolls a loop of constant length whole; of a constant number of bands that is straight-line
- * code. */
-#if !defined(__OPTIMIZE__)
-#define LMP_UNROLL
-#define LMP_ROLLED
+/* Unrolls a loop of constant length whole; for a constant number of bands that gives straight-line
+ * code, which takes compilers minutes. Builds whose speed matters to nobody define
+ * LMPI_ROLLED_LOOPS (LAMPION_UNROLL=OFF). */
+#if !defined(__OPTIMIZE__) || defined(LMPI_ROLLED_LOOPS)
+#define LMPI_UNROLL
+#define LMPI_ROLLED
 #elif defined(__clang__)
-#define LMP_UNROLL _Pragma("clang loop unroll(full)")
-#define LMP_ROLLED _Pragma("clang loop unroll(disable)")
+#define LMPI_UNROLL _Pragma("clang loop unroll(full)")
+#define LMPI_ROLLED _Pragma("clang loop unroll(disable)")
 #else
-#define LMP_UNROLL _Pragma("GCC unroll 16")
-#define LMP_ROLLED _Pragma("GCC unroll 1")
+#define LMPI_UNROLL _Pragma("GCC unroll 16")
+#define LMPI_ROLLED _Pragma("GCC unroll 1")
 #endif
 
-/* At the end of a loop over `i`: no vectors are made of it. A vector's load would wait for the
- * stores of single values just before to reach the cache, longer than a few bands take. */
-#define LMP_ONE_BY_ONE(i) __asm__ volatile("" : "+r"(i))
+/* Keeps the compiler from vectorizing a loop over `i`, at whose end it stands. A vector's load
+ * would wait until the single values stored just before reach the cache, longer than a few bands
+ * take. */
+#define LMPI_ONE_BY_ONE(i) __asm__ volatile("" : "+r"(i))
 
-/* Cases of a switch over bands: of one number, and of those that engines ask for one light at a
- * time. */
-#define LMP_CASE(bands, body, ...)                                                                 \
+/* Cases of a switch over bands: LMPI_CASE of one number, LMPI_FEW_CASES of the numbers that engines
+ * use for one light at a time, LMPI_SMALL_CASES of up to 10 bands. */
+#define LMPI_CASE(bands, body, ...)                                                                \
     case bands:                                                                                    \
         body(bands, __VA_ARGS__);                                                                  \
         break;
-#define LMP_FEW_BANDS 6
-#define LMP_FEW_CASES(body, ...)                                                                   \
-    LMP_CASE(1, body, __VA_ARGS__)                                                                 \
-    LMP_CASE(2, body, __VA_ARGS__)                                                                 \
-    LMP_CASE(3, body, __VA_ARGS__)                                                                 \
-    LMP_CASE(4, body, __VA_ARGS__)                                                                 \
-    LMP_CASE(5, body, __VA_ARGS__)                                                                 \
-    LMP_CASE(6, body, __VA_ARGS__)
+#define LMPI_FEW_BANDS 6
+#define LMPI_FEW_CASES(body, ...)                                                                  \
+    LMPI_CASE(1, body, __VA_ARGS__)                                                                \
+    LMPI_CASE(2, body, __VA_ARGS__)                                                                \
+    LMPI_CASE(3, body, __VA_ARGS__)                                                                \
+    LMPI_CASE(4, body, __VA_ARGS__)                                                                \
+    LMPI_CASE(5, body, __VA_ARGS__)                                                                \
+    LMPI_CASE(6, body, __VA_ARGS__)
 
-#define LMP_SMALL_CASES(body, ...)                                                                 \
-    LMP_FEW_CASES(body, __VA_ARGS__)                                                               \
-    LMP_CASE(7, body, __VA_ARGS__)                                                                 \
-    LMP_CASE(8, body, __VA_ARGS__)                                                                 \
-    LMP_CASE(9, body, __VA_ARGS__)                                                                 \
-    LMP_CASE(10, body, __VA_ARGS__)
+#define LMPI_SMALL_CASES(body, ...)                                                                \
+    LMPI_FEW_CASES(body, __VA_ARGS__)                                                              \
+    LMPI_CASE(7, body, __VA_ARGS__)                                                                \
+    LMPI_CASE(8, body, __VA_ARGS__)                                                                \
+    LMPI_CASE(9, body, __VA_ARGS__)                                                                \
+    LMPI_CASE(10, body, __VA_ARGS__)
 
-/* Calls body(bands, …); few bands as a constant, or up to 10 of what is small. */
-#define LMP_STRAIGHT_SMALL(bands, body, ...)                                                       \
+/* Call body(bands, …) with few bands as a constant: up to 6, or up to 10 for small code. */
+#define LMPI_STRAIGHT_SMALL(bands, body, ...)                                                      \
     switch (bands) {                                                                               \
-        LMP_SMALL_CASES(body, __VA_ARGS__)                                                         \
+        LMPI_SMALL_CASES(body, __VA_ARGS__)                                                        \
     default:                                                                                       \
         body(bands, __VA_ARGS__);                                                                  \
     }
-#define LMP_STRAIGHT(bands, body, ...)                                                             \
+#define LMPI_STRAIGHT(bands, body, ...)                                                            \
     switch (bands) {                                                                               \
-        LMP_FEW_CASES(body, __VA_ARGS__)                                                           \
+        LMPI_FEW_CASES(body, __VA_ARGS__)                                                          \
     default:                                                                                       \
         body(bands, __VA_ARGS__);                                                                  \
     }

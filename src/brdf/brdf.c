@@ -4,13 +4,13 @@
 #include <float.h>
 #include <math.h>
 
-lmp_result lmp_brdf_new(const lmp_host *host, lmp_brdf_kind kind, size_t extra, lmp_brdf **brdf) {
+lmp_result lmpi_brdf_new(const lmp_host *host, lmp_brdf_kind kind, size_t extra, lmp_brdf **brdf) {
     *brdf = NULL;
     const size_t head = (sizeof **brdf + 15) & ~(size_t)15;
     if (extra > SIZE_MAX - head)
         return LMP_ERROR_MEMORY;
-    const lmp_host resolved = lmp_host_resolve(host);
-    lmp_brdf *made = lmp_allocate(&resolved, head + extra);
+    const lmp_host resolved = lmpi_host_resolve(host);
+    lmp_brdf *made = lmpi_allocate(&resolved, head + extra);
     if (!made)
         return LMP_ERROR_MEMORY;
     memset(made, 0, head + extra);
@@ -22,14 +22,14 @@ lmp_result lmp_brdf_new(const lmp_host *host, lmp_brdf_kind kind, size_t extra, 
 }
 
 void lmp_brdf_destroy(lmp_brdf *brdf) {
-    lmp_release_object(brdf);
+    lmpi_release_object(brdf);
 }
 
 lmp_brdf_info lmp_brdf_describe(const lmp_brdf *brdf) {
     return brdf->info;
 }
 
-void lmp_brdf_half(const double a[3], const double b[3], double h[3]) {
+void lmpi_brdf_half_vector(const double a[3], const double b[3], double h[3]) {
     for (int k = 0; k < 3; k++)
         h[k] = a[k] + b[k];
     const double length = sqrt(brdf_dot(h, h));
@@ -52,7 +52,7 @@ void lmp_brdf_eval_double(const lmp_brdf *brdf, const double wi[3], const double
         brdf->eval(brdf, a, b, rgb);
 }
 
-/* Near the horizon a value may be finite, but not as a float. */
+/* Converts to float a value that near the horizon may be finite but too large for a float. */
 static float narrow(double value) {
     return value > (double)FLT_MAX ? FLT_MAX : (float)value;
 }

@@ -7,8 +7,7 @@
 
 #include "src/base/bytes.h"
 #include "src/base/host.h"
-
-#include <stdarg.h>
+#include "src/base/parse_error.h"
 
 #define BRDF_PI 3.14159265358979323846
 
@@ -20,9 +19,9 @@ typedef struct brdf_ggx {
     double alpha_x, alpha_y, f0[3], diffuse[3];
 } brdf_ggx;
 
-/* Of white fibers, by the root of the view's cosine, 0 to 1: how many times more than arrives of a
- * uniform sky the specification has them reflect (below 1 it does not count), and what they do
- * reflect. */
+/* Values for white sheen by the square root of the view's cosine, 0 to 1: how many times more
+ * light than arrives from a uniform sky the specification has them reflect (not used below 1), and
+ * what they do reflect. */
 #define BRDF_SHEEN_ALBEDOS 129
 typedef struct brdf_sheen {
     double alpha, color[3], diffuse[3], gain[BRDF_SHEEN_ALBEDOS], albedo[BRDF_SHEEN_ALBEDOS];
@@ -33,7 +32,7 @@ typedef struct brdf_merl {
     float *samples; /* [theta_h][theta_d][phi_d][rgb], scaled to sr⁻¹ */
 } brdf_merl;
 
-/* A plane of samples over the unit square, column = first coordinate. */
+/* A plane of samples over the unit square; columns run along the first coordinate. */
 typedef struct brdf_grid {
     int height, width;
     const float *values;
@@ -48,7 +47,7 @@ typedef struct brdf_rgl {
     brdf_grid ndf, sigma;
     int vndf_height, vndf_width;
     float *density;     /* [phi][theta][height][width], integral 1 */
-    float *conditional; /* the same shape: integral along a row up to here */
+    float *conditional; /* the same shape as density: its integral along a row up to here */
     float *marginal;    /* [phi][theta][height]: integral of the rows up to here */
     int rgb_height, rgb_width;
     float *rgb; /* [phi][theta][channel][height][width] */
@@ -57,10 +56,12 @@ typedef struct brdf_rgl {
 struct lmp_brdf {
     lmp_host host;
     lmp_brdf_info info;
-    int rings_per_band; /* of a table by default, at least, where info.rings limits them */
-    /* f_r of unit vectors above the surface; b is where a cosine was folded in by the file */
+    int rings_per_band; /* the least of a table by default, where info.rings limits them */
+    /* Evaluates f_r of unit vectors above the surface; b is the direction whose cosine the file
+     * includes. */
     void (*eval)(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]);
-    /* the mean of eval and its mirror image under y -> -y, a lying in the x-z plane; may be NULL */
+    /* Evaluates the mean of eval and its mirror image under y -> -y, with a in the x-z plane; may
+     * be NULL. */
     void (*eval_mirrored)(const lmp_brdf *brdf, const double a[3], const double b[3],
                           double rgb[3]);
     union {
@@ -74,21 +75,14 @@ struct lmp_brdf {
     };
 };
 
-/* One block for the object and `extra` bytes behind it, zeroed, aligned for any type. */
-lmp_result lmp_brdf_new(const lmp_host *host, lmp_brdf_kind kind, size_t extra, lmp_brdf **brdf);
-static inline void *lmp_brdf_extra(lmp_brdf *brdf) {
+/* Allocates one zeroed block, aligned for any type, for the object and `extra` bytes behind it. */
+lmp_result lmpi_brdf_new(const lmp_host *host, lmp_brdf_kind kind, size_t extra, lmp_brdf **brdf);
+static inline void *lmpi_brdf_extra(lmp_brdf *brdf) {
     return (unsigned char *)brdf + ((sizeof *brdf + 15) & ~(size_t)15);
 }
 
-/* Fills the error (may be NULL) and returns `result`. The format knows %s, %d and %zu. */
-lmp_result lmp_brdf_fail(lmp_parse_error *error, lmp_result result, size_t offset,
-                         const char *format, ...) __attribute__((format(printf, 4, 5)));
-lmp_result lmp_brdf_fail_list(lmp_parse_error *error, lmp_result result, size_t offset,
-                              const char *format, va_list list)
-    __attribute__((format(printf, 4, 0)));
-
-/* Unit half vector of a and b. */
-void lmp_brdf_half(const double a[3], const double b[3], double h[3]);
+/* Computes the unit half vector of a and b. */
+void lmpi_brdf_half_vector(const double a[3], const double b[3], double h[3]);
 static inline double brdf_dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

@@ -6,8 +6,8 @@
 
 #define HEADER 12u
 
-/* Cells have edges, which quadrature finds slowly: rings of 0.35 degrees, where cells have 1, and
- * finer ones for the many bands that are worth the time. */
+/* Quadrature converges slowly across the edges of cells: rings of 0.35 degrees, where cells have 1,
+ * and finer ones for tables of so many bands that they are worth the time. */
 #define RINGS          256
 #define RINGS_PER_BAND 8
 
@@ -19,10 +19,11 @@ static int cell(double fraction, int count) {
     return i < 0 ? 0 : i < count ? i : count - 1;
 }
 
-/* theta_h, theta_d and phi_d as fractions of their ranges pi/2, pi/2, pi; theta_h by its root. */
+/* Computes theta_h, theta_d and phi_d as fractions of their ranges pi/2, pi/2, pi; theta_h is
+ * stored by its square root. */
 static void half_angles(const double a[3], const double b[3], double fractions[3]) {
     double h[3];
-    lmp_brdf_half(a, b, h);
+    lmpi_brdf_half_vector(a, b, h);
     const double ct = h[2], st = sqrt(h[0] * h[0] + h[1] * h[1]);
     const double cp = st > 1e-12 ? h[0] / st : 1, sp = st > 1e-12 ? h[1] / st : 0;
     const double x = cp * a[0] + sp * a[1], y = cp * a[1] - sp * a[0];
@@ -35,7 +36,7 @@ static void half_angles(const double a[3], const double b[3], double fractions[3
     fractions[2] = phi / BRDF_PI;
 }
 
-/* The samples of a pair of directions along phi_d, and the position among them. */
+/* Finds the samples of a pair of directions along phi_d, and the position among them. */
 static const float *find_row(const brdf_merl *merl, const double a[3], const double b[3], int *k) {
     const int *shape = merl->shape;
     double fractions[3];
@@ -52,7 +53,7 @@ static void eval_merl(const lmp_brdf *brdf, const double a[3], const double b[3]
         rgb[c] = (double)row[3 * k + c];
 }
 
-/* Mirrored, phi_d becomes pi - phi_d. */
+/* Evaluates the mean of f_r and its mirror image, whose phi_d is pi - phi_d. */
 static void eval_merl_mirrored(const lmp_brdf *brdf, const double a[3], const double b[3],
                                double rgb[3]) {
     int k;
@@ -62,7 +63,8 @@ static void eval_merl_mirrored(const lmp_brdf *brdf, const double a[3], const do
         rgb[c] = ((double)row[3 * k + c] + (double)row[3 * image + c]) / 2;
 }
 
-/* The pair of directions at the center of a cell; false where one lies below the surface. */
+/* Computes the pair of directions at the center of a cell; returns false if one lies below the
+ * surface. */
 static bool cell_center(const int shape[3], int i, int j, int k, double a[3], double b[3]) {
     const double root = (i + 0.5) / shape[0], theta_h = BRDF_PI / 2 * root * root;
     const double theta_d = BRDF_PI / 2 * (j + 0.5) / shape[1],
@@ -81,23 +83,24 @@ static bool cell_center(const int shape[3], int i, int j, int k, double a[3], do
 static lmp_result check_header(const unsigned char *bytes, size_t size, int shape[3], size_t *cells,
                                lmp_parse_error *error) {
     if (size < HEADER)
-        return lmp_brdf_fail(error, LMP_ERROR_FORMAT, size,
-                             "a MERL file begins with 12 bytes of dimensions, this has %zu", size);
+        return lmpi_parse_fail(error, LMP_ERROR_FORMAT, size,
+                               "a MERL file begins with 12 bytes of dimensions, this has %zu",
+                               size);
     uint64_t product = 1;
     for (int axis = 0; axis < 3; axis++) {
-        const uint32_t n = lmp_bytes_at_u32(bytes + 4 * axis);
+        const uint32_t n = lmpi_bytes_at_u32(bytes + 4 * axis);
         if (n < 1 || n > 1u << 20)
-            return lmp_brdf_fail(error, LMP_ERROR_FORMAT, 4 * (size_t)axis,
-                                 "MERL dimension %d is %d, not a sensible number of cells", axis,
-                                 (int)n);
+            return lmpi_parse_fail(error, LMP_ERROR_FORMAT, 4 * (size_t)axis,
+                                   "MERL dimension %d is %d, not a sensible number of cells", axis,
+                                   (int)n);
         shape[axis] = (int)n;
         product *= n;
     }
     const uint64_t wanted = HEADER + 24 * product;
     if (product > UINT64_C(1) << 40 || wanted != size)
-        return lmp_brdf_fail(error, LMP_ERROR_FORMAT, 0,
-                             "MERL dimensions %d x %d x %d need %zu bytes, the file has %zu",
-                             shape[0], shape[1], shape[2], (size_t)wanted, size);
+        return lmpi_parse_fail(error, LMP_ERROR_FORMAT, 0,
+                               "MERL dimensions %d x %d x %d need %zu bytes, the file has %zu",
+                               shape[0], shape[1], shape[2], (size_t)wanted, size);
     *cells = (size_t)product;
     return LMP_OK;
 }
@@ -112,18 +115,18 @@ lmp_result lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t siz
     if (result != LMP_OK)
         return result;
     lmp_brdf *made = NULL;
-    result = lmp_brdf_new(host, LMP_BRDF_MERL, 3 * cells * sizeof(float), &made);
+    result = lmpi_brdf_new(host, LMP_BRDF_MERL, 3 * cells * sizeof(float), &made);
     if (result != LMP_OK)
-        return lmp_brdf_fail(error, result, 0, "no memory for %zu MERL cells", cells);
-    float *samples = lmp_brdf_extra(made);
+        return lmpi_parse_fail(error, result, 0, "out of memory for %zu MERL cells", cells);
+    float *samples = lmpi_brdf_extra(made);
     for (size_t c = 0; c < 3; c++)
         for (size_t i = 0; i < cells; i++) {
             const size_t offset = HEADER + 8 * (c * cells + i);
-            const double value = lmp_bytes_at_f64(bytes + offset) * scale[c];
+            const double value = lmpi_bytes_at_f64(bytes + offset) * scale[c];
             if (!(fabs(value) <= 3e38)) {
                 lmp_brdf_destroy(made);
-                return lmp_brdf_fail(error, LMP_ERROR_FORMAT, offset,
-                                     "MERL cell %zu of channel %zu is not a finite number", i, c);
+                return lmpi_parse_fail(error, LMP_ERROR_FORMAT, offset,
+                                       "MERL cell %zu of channel %zu is not a finite number", i, c);
             }
             samples[3 * i + c] = value > 0 ? (float)value : 0;
         }
@@ -144,7 +147,7 @@ typedef struct writing {
     unsigned char *bytes;
 } writing;
 
-/* All cells of one theta_h. */
+/* Writes all cells of one theta_h. */
 static lmp_result write_theta_h(size_t index, void *data) {
     const writing *job = data;
     const size_t cells = (LMP_MERL_SIZE - HEADER) / 24;
@@ -155,27 +158,27 @@ static lmp_result write_theta_h(size_t index, void *data) {
             if (cell_center(full_shape, (int)index, j, k, a, b))
                 lmp_brdf_eval_double(job->brdf, a, b, rgb);
             for (size_t c = 0; c < 3; c++)
-                lmp_bytes_store_f64(job->bytes + HEADER + 8 * (c * cells + n),
-                                    rgb[0] < 0 ? -1 : rgb[c] / scale[c]);
+                lmpi_bytes_store_f64(job->bytes + HEADER + 8 * (c * cells + n),
+                                     rgb[0] < 0 ? -1 : rgb[c] / scale[c]);
         }
     return LMP_OK;
 }
 
-lmp_result lmp_brdf_write_merl(const lmp_host *host, const lmp_brdf *brdf, void **data,
-                               size_t *size) {
+lmp_result lmp_brdf_encode_merl(const lmp_host *host, const lmp_brdf *brdf, void **data,
+                                size_t *size) {
     *size = LMP_MERL_SIZE;
-    const lmp_host resolved = lmp_host_resolve(host);
-    writing job = { brdf, lmp_allocate(&resolved, LMP_MERL_SIZE) };
+    const lmp_host resolved = lmpi_host_resolve(host);
+    writing job = { brdf, lmpi_allocate(&resolved, LMP_MERL_SIZE) };
     *data = NULL;
     *size = 0;
     if (!job.bytes)
         return LMP_ERROR_MEMORY;
     for (int axis = 0; axis < 3; axis++)
-        lmp_bytes_store_u32(job.bytes + 4 * axis, (uint32_t)full_shape[axis]);
+        lmpi_bytes_store_u32(job.bytes + 4 * axis, (uint32_t)full_shape[axis]);
     const lmp_result result =
-        lmp_host_run(&resolved, 0, 1, (size_t)full_shape[0], write_theta_h, &job);
+        lmpi_host_run(&resolved, 0, 1, (size_t)full_shape[0], write_theta_h, &job);
     if (result != LMP_OK) {
-        lmp_release(&resolved, job.bytes);
+        lmpi_release(&resolved, job.bytes);
         return result;
     }
     *data = job.bytes;

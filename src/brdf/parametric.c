@@ -10,7 +10,7 @@ static bool all_within(const double *values, int count, double minimum, double m
     return true;
 }
 
-/* Copies a color; false unless it is finite and not negative. */
+/* Copies a color; returns false unless it is finite and not negative. */
 static bool take_color(lmp_rgb rgb, double out[3]) {
     out[0] = (double)rgb.r;
     out[1] = (double)rgb.g;
@@ -33,7 +33,7 @@ lmp_result lmp_brdf_create_lambert(const lmp_host *host, lmp_rgb albedo, lmp_brd
     double color[3];
     if (!take_color(albedo, color))
         return LMP_ERROR_ARGUMENT;
-    const lmp_result result = lmp_brdf_new(host, LMP_BRDF_LAMBERT, 0, brdf);
+    const lmp_result result = lmpi_brdf_new(host, LMP_BRDF_LAMBERT, 0, brdf);
     if (result != LMP_OK)
         return result;
     memcpy((*brdf)->lambert, color, sizeof color);
@@ -58,7 +58,7 @@ lmp_result lmp_brdf_create_phong(const lmp_host *host, lmp_rgb reflectance, floa
     brdf_phong phong = { .exponent = (double)exponent };
     if (!take_color(reflectance, phong.reflectance) || !all_within(&phong.exponent, 1, 0, 1e6))
         return LMP_ERROR_ARGUMENT;
-    const lmp_result result = lmp_brdf_new(host, LMP_BRDF_PHONG, 0, brdf);
+    const lmp_result result = lmpi_brdf_new(host, LMP_BRDF_PHONG, 0, brdf);
     if (result != LMP_OK)
         return result;
     (*brdf)->phong = phong;
@@ -69,7 +69,7 @@ lmp_result lmp_brdf_create_phong(const lmp_host *host, lmp_rgb reflectance, floa
 
 /* --- GGX -------------------------------------------------------------------------------------- */
 
-/* w.z (1 + 2 Λ), Smith's Λ for GGX the masking of direction w. */
+/* Computes w.z (1 + 2 Λ), where Smith's Λ for GGX is the masking of direction w. */
 static double smith_root(const brdf_ggx *ggx, const double w[3]) {
     const double x = ggx->alpha_x * w[0], y = ggx->alpha_y * w[1];
     return sqrt(w[2] * w[2] + x * x + y * y);
@@ -78,7 +78,7 @@ static double smith_root(const brdf_ggx *ggx, const double w[3]) {
 static void eval_ggx(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]) {
     const brdf_ggx *ggx = &brdf->ggx;
     double h[3];
-    lmp_brdf_half(a, b, h);
+    lmpi_brdf_half_vector(a, b, h);
     const double x = h[0] / ggx->alpha_x, y = h[1] / ggx->alpha_y, s = x * x + y * y + h[2] * h[2];
     const double d = 1 / (BRDF_PI * ggx->alpha_x * ggx->alpha_y * s * s);
     /* 1 / (1 + Λ(a) + Λ(b)) / (4 a.z b.z), which goes to infinity at the horizon */
@@ -99,7 +99,7 @@ lmp_result lmp_brdf_create_ggx(const lmp_host *host, const lmp_ggx *ggx, lmp_brd
         !take_color(ggx->f0, own.f0) || !take_color(ggx->diffuse, own.diffuse) ||
         !all_within(own.f0, 3, 0, 1))
         return LMP_ERROR_ARGUMENT;
-    const lmp_result result = lmp_brdf_new(host, LMP_BRDF_GGX, 0, brdf);
+    const lmp_result result = lmpi_brdf_new(host, LMP_BRDF_GGX, 0, brdf);
     if (result != LMP_OK)
         return result;
     (*brdf)->ggx = own;

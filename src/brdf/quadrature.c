@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* Y_lm(z, phi = 0) for m >= 0, sqrt 2 and (-1)^m included (paper Eq. 1-2), in double: float tables
- * would lose 100 bands. */
+/* Computes Y_lm(z, phi = 0) for m >= 0, with sqrt 2 and (-1)^m (paper Eq. 1-2). In double, because
+ * float tables would lose 100 bands. */
 static void legendre_ring(int bands, double z, double *row) {
     const double s = sqrt((1 - z) * (1 + z));
     double diagonal = sqrt(1 / (4 * BRDF_PI));
@@ -25,10 +25,10 @@ static void legendre_ring(int bands, double z, double *row) {
     }
 }
 
-lmp_result lmp_brdf_quadrature_create(const lmp_host *host, int bands, int rings,
-                                      brdf_quadrature *quadrature) {
-    const size_t n = (size_t)bands, k = (size_t)rings, half = LMP_SH_HALF_COUNT(bands);
-    double *block = lmp_allocate(host, (6 * k + 4 * k * n + k * half) * sizeof *block);
+lmp_result lmpi_brdf_quadrature_create(const lmp_host *host, int bands, int rings,
+                                       brdf_quadrature *quadrature) {
+    const size_t n = (size_t)bands, k = (size_t)rings, half_count = LMP_SH_HALF_COUNT(bands);
+    double *block = lmpi_allocate(host, (6 * k + 4 * k * n + k * half_count) * sizeof *block);
     if (!block)
         return LMP_ERROR_MEMORY;
     *quadrature = (brdf_quadrature) { .bands = bands,
@@ -44,10 +44,10 @@ lmp_result lmp_brdf_quadrature_create(const lmp_host *host, int bands, int rings
                                       .block = block };
     for (size_t i = 0; i < k; i++) {
         double node, weight;
-        lmp_gauss_legendre(rings, (int)i, &node, &weight);
+        lmpi_gauss_legendre(rings, (int)i, &node, &weight);
         const double z = quadrature->z[i] = (1 + node) / 2;
         quadrature->weight[i] = weight / 2 * z * 2 * BRDF_PI / quadrature->azimuths;
-        legendre_ring(bands, z, quadrature->legendre + i * half);
+        legendre_ring(bands, z, quadrature->legendre + i * half_count);
     }
     for (size_t j = 0; j < 2 * k; j++) {
         const double phi = BRDF_PI * (double)(2 * j + 1) / (double)(2 * k);
@@ -62,18 +62,18 @@ lmp_result lmp_brdf_quadrature_create(const lmp_host *host, int bands, int rings
     return LMP_OK;
 }
 
-void lmp_brdf_quadrature_destroy(const lmp_host *host, brdf_quadrature *quadrature) {
-    lmp_release(host, quadrature->block);
+void lmpi_brdf_quadrature_destroy(const lmp_host *host, brdf_quadrature *quadrature) {
+    lmpi_release(host, quadrature->block);
     quadrature->block = NULL;
 }
 
-/* Whether the half turn y > 0 says all: only cosines are wanted, and f_r is symmetric or knows its
- * mirrored mean. */
+/* Whether the half circle y > 0 suffices: only cosines are needed, and f_r is symmetric or provides
+ * its mirrored mean. */
 static bool is_halved(const brdf_projection *p) {
     return p->mirrored && (p->brdf->info.mirrored || p->brdf->eval_mirrored);
 }
 
-/* Σ_j f(phi_j) cos(m phi_j), and with sin, of one ring. */
+/* Computes Σ_j f(phi_j) cos(m phi_j) of one ring, and the same sum with sin. */
 static void transform_ring(const brdf_projection *p, const brdf_quadrature *q, double z, int count,
                            double cosine[3][LMP_BANDS_MAX], double sine[3][LMP_BANDS_MAX]) {
     const double s = sqrt((1 - z) * (1 + z));
@@ -101,22 +101,22 @@ static void transform_ring(const brdf_projection *p, const brdf_quadrature *q, d
     }
 }
 
-void lmp_brdf_project_view(const brdf_projection *projection, const brdf_quadrature *quadrature,
-                           double *cosine, double *sine) {
+void lmpi_brdf_project_view(const brdf_projection *projection, const brdf_quadrature *quadrature,
+                            double *cosine, double *sine) {
     const int bands = quadrature->bands;
-    const size_t half = LMP_SH_HALF_COUNT(bands);
+    const size_t half_count = LMP_SH_HALF_COUNT(bands);
     const bool halved = is_halved(projection);
     const int count = halved ? quadrature->azimuths / 2 : quadrature->azimuths;
-    memset(cosine, 0, 3 * half * sizeof *cosine);
+    memset(cosine, 0, 3 * half_count * sizeof *cosine);
     if (!projection->mirrored)
-        memset(sine, 0, 3 * half * sizeof *sine);
+        memset(sine, 0, 3 * half_count * sizeof *sine);
     for (int k = 0; k < quadrature->rings; k++) {
         double ring_cosine[3][LMP_BANDS_MAX], ring_sine[3][LMP_BANDS_MAX];
         transform_ring(projection, quadrature, quadrature->z[k], count, ring_cosine, ring_sine);
         const double weight = quadrature->weight[k] * (halved ? 2 : 1);
         for (size_t channel = 0; channel < 3; channel++) {
-            const double *q = quadrature->legendre + (size_t)k * half;
-            double *out_c = cosine + channel * half, *out_s = sine + channel * half;
+            const double *q = quadrature->legendre + (size_t)k * half_count;
+            double *out_c = cosine + channel * half_count, *out_s = sine + channel * half_count;
             for (int m = 0; m < bands; m++) {
                 const double c = weight * ring_cosine[channel][m];
                 const double s = weight * ring_sine[channel][m];

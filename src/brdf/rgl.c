@@ -4,12 +4,13 @@
 
 #include <math.h>
 
-double lmp_rgl_theta(const double w[3]) {
+double lmpi_rgl_theta(const double w[3]) {
     const double chord2 = w[0] * w[0] + w[1] * w[1] + (w[2] - 1) * (w[2] - 1);
     return 2 * asin(fmin(sqrt(chord2) / 2, 1));
 }
 
-/* The cell of x in ascending nodes and the fraction of its upper end; a single node has no cell. */
+/* Finds the cell of x in ascending nodes and the fraction of its upper end; a single node has no
+ * cell. */
 static int find_node(const float *nodes, int count, double x, double *fraction) {
     *fraction = 0;
     if (count < 2)
@@ -27,7 +28,7 @@ static int find_node(const float *nodes, int count, double x, double *fraction) 
     return low;
 }
 
-rgl_slices lmp_rgl_slices(const brdf_rgl *rgl, double theta, double phi) {
+rgl_slices lmpi_rgl_slices(const brdf_rgl *rgl, double theta, double phi) {
     double p = 0, t = 0;
     const int i = find_node(rgl->phi, rgl->phi_count, phi, &p);
     const int j = find_node(rgl->theta, rgl->theta_count, theta, &t);
@@ -41,7 +42,7 @@ rgl_slices lmp_rgl_slices(const brdf_rgl *rgl, double theta, double phi) {
     };
 }
 
-size_t lmp_rgl_accumulate(brdf_rgl *rgl) {
+size_t lmpi_rgl_accumulate(brdf_rgl *rgl) {
     const size_t slices = (size_t)rgl->phi_count * (size_t)rgl->theta_count;
     const size_t width = (size_t)rgl->vndf_width, height = (size_t)rgl->vndf_height;
     for (size_t slice = 0; slice < slices; slice++) {
@@ -77,7 +78,7 @@ size_t lmp_rgl_accumulate(brdf_rgl *rgl) {
     return slices;
 }
 
-/* A cell of a grid: its lower corner and the position in it. */
+/* Finds a cell of a grid: its lower corner and the position in it. */
 static size_t grid_cell(double u, int count, double *fraction) {
     const double position = fmin(fmax(u, 0), 1) * (count - 1);
     const int cell = count < 2 ? 0 : (int)position < count - 2 ? (int)position : count - 2;
@@ -85,7 +86,7 @@ static size_t grid_cell(double u, int count, double *fraction) {
     return (size_t)cell;
 }
 
-/* Σ of the slices' values at one offset in their tables. */
+/* Sums the slices' values at one offset in their tables. */
 static double mix(const float *tables, size_t stride, const rgl_slices *slices, size_t offset) {
     double sum = 0;
     for (int k = 0; k < 4; k++)
@@ -94,7 +95,7 @@ static double mix(const float *tables, size_t stride, const rgl_slices *slices, 
     return sum;
 }
 
-void lmp_rgl_warp(const brdf_rgl *rgl, const rgl_slices *slices, const double u[2], double s[2]) {
+void lmpi_rgl_warp(const brdf_rgl *rgl, const rgl_slices *slices, const double u[2], double s[2]) {
     const size_t width = (size_t)rgl->vndf_width, stride = width * (size_t)rgl->vndf_height;
     double fx, fy;
     const size_t x = grid_cell(u[0], rgl->vndf_width, &fx);
@@ -116,7 +117,7 @@ void lmp_rgl_warp(const brdf_rgl *rgl, const rgl_slices *slices, const double u[
     s[1] = fy * (r0 + fy * (r1 - r0) / 2) + mix(rgl->marginal, (size_t)rgl->vndf_height, slices, y);
 }
 
-double lmp_rgl_bilinear(const brdf_grid *grid, const double s[2]) {
+double lmpi_rgl_bilinear(const brdf_grid *grid, const double s[2]) {
     double fx, fy;
     const size_t x = grid_cell(s[0], grid->width, &fx), y = grid_cell(s[1], grid->height, &fy);
     const size_t right = grid->width > 1, down = grid->height > 1 ? (size_t)grid->width : 0;
@@ -126,7 +127,7 @@ double lmp_rgl_bilinear(const brdf_grid *grid, const double s[2]) {
     return top + fy * (low - top);
 }
 
-/* Brings phi_i into the part of the turn that the file covers, moving both directions by the
+/* Brings phi_i into the part of the turn that the file covers, and moves both directions by the
  * symmetry: a half turn, or mirrors in x and y. */
 static void fold(const brdf_rgl *rgl, double a[3], double b[3]) {
     const double middle = ((double)rgl->phi[0] + (double)rgl->phi[rgl->phi_count - 1]) / 2;
@@ -144,33 +145,33 @@ static void fold(const brdf_rgl *rgl, double a[3], double b[3]) {
             }
 }
 
-/* phi plus whole turns, within half a turn of the middle of the file's nodes. */
+/* Adds whole turns to phi, to bring it within half a turn of the middle of the file's nodes. */
 static double wrap_phi(const brdf_rgl *rgl, double phi) {
     const double middle = ((double)rgl->phi[0] + (double)rgl->phi[rgl->phi_count - 1]) / 2;
     const double turns = (phi - middle) / (2 * BRDF_PI);
     return middle + (turns - floor(turns + 0.5)) * 2 * BRDF_PI;
 }
 
-void lmp_rgl_eval(const lmp_brdf *brdf, const double first[3], const double second[3],
-                  double rgb[3]) {
+void lmpi_rgl_eval(const lmp_brdf *brdf, const double first[3], const double second[3],
+                   double rgb[3]) {
     const brdf_rgl *rgl = &brdf->rgl;
     double a[3] = { first[0], first[1], first[2] }, b[3] = { second[0], second[1], second[2] };
     fold(rgl, a, b);
     double m[3];
-    lmp_brdf_half(a, b, m);
-    const double theta_a = lmp_rgl_theta(a), phi_a = atan2(a[1], a[0]);
+    lmpi_brdf_half_vector(a, b, m);
+    const double theta_a = lmpi_rgl_theta(a), phi_a = atan2(a[1], a[0]);
     const double phi_m = atan2(m[1], m[0]) - (rgl->isotropic ? phi_a : 0);
     const double turns = (phi_m + BRDF_PI) / (2 * BRDF_PI);
     const double u_a[2] = { sqrt(theta_a * 2 / BRDF_PI), (phi_a + BRDF_PI) / (2 * BRDF_PI) };
-    const double u_m[2] = { sqrt(lmp_rgl_theta(m) * 2 / BRDF_PI), turns - floor(turns) };
+    const double u_m[2] = { sqrt(lmpi_rgl_theta(m) * 2 / BRDF_PI), turns - floor(turns) };
     const rgl_slices slices =
-        lmp_rgl_slices(rgl, theta_a, rgl->isotropic ? phi_a : wrap_phi(rgl, phi_a));
+        lmpi_rgl_slices(rgl, theta_a, rgl->isotropic ? phi_a : wrap_phi(rgl, phi_a));
     double s[2];
-    lmp_rgl_warp(rgl, &slices, u_m, s);
+    lmpi_rgl_warp(rgl, &slices, u_m, s);
     double factor = 1 / b[2];
     if (rgl->jacobian) {
-        const double sigma = lmp_rgl_bilinear(&rgl->sigma, u_a);
-        factor = sigma > 0 ? factor * lmp_rgl_bilinear(&rgl->ndf, u_m) / (4 * sigma) : 0;
+        const double sigma = lmpi_rgl_bilinear(&rgl->sigma, u_a);
+        factor = sigma > 0 ? factor * lmpi_rgl_bilinear(&rgl->ndf, u_m) / (4 * sigma) : 0;
     }
     const size_t plane = (size_t)rgl->rgb_width * (size_t)rgl->rgb_height;
     for (size_t c = 0; c < 3; c++) {
@@ -180,7 +181,7 @@ void lmp_rgl_eval(const lmp_brdf *brdf, const double first[3], const double seco
                 continue;
             const brdf_grid grid = { rgl->rgb_height, rgl->rgb_width,
                                      rgl->rgb + (3 * slices.index[k] + c) * plane };
-            value += slices.weight[k] * lmp_rgl_bilinear(&grid, s);
+            value += slices.weight[k] * lmpi_rgl_bilinear(&grid, s);
         }
         rgb[c] = fmax(0, value) * factor;
     }

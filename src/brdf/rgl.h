@@ -18,26 +18,24 @@ typedef struct rgl_slices {
     double weight[4];
 } rgl_slices;
 
-/* Slices around (theta_i, phi_i), held to the ends. */
-rgl_slices lmp_rgl_slices(const brdf_rgl *rgl, double theta, double phi);
+/* Finds the slices around (theta_i, phi_i), clamped to the ends. */
+rgl_slices lmpi_rgl_slices(const brdf_rgl *rgl, double theta, double phi);
 
 /* Makes the cumulative tables of every slice of rgl->density and scales each to integral 1. Returns
  * the first slice whose integral is not positive, or phi_count * theta_count. */
-size_t lmp_rgl_accumulate(brdf_rgl *rgl);
+size_t lmpi_rgl_accumulate(brdf_rgl *rgl);
 
-/* The position in the unit square of samples of a normal's coordinates u (Dupuy and Jakob 2018,
- * §4.2).
- */
-void lmp_rgl_warp(const brdf_rgl *rgl, const rgl_slices *slices, const double u[2], double s[2]);
+/* Maps a normal's coordinates u to the unit square of samples (Dupuy and Jakob 2018, §4.2). */
+void lmpi_rgl_warp(const brdf_rgl *rgl, const rgl_slices *slices, const double u[2], double s[2]);
 
-/* Bilinear value of a grid at s in the unit square. */
-double lmp_rgl_bilinear(const brdf_grid *grid, const double s[2]);
+/* Returns the bilinear value of a grid at s in the unit square. */
+double lmpi_rgl_bilinear(const brdf_grid *grid, const double s[2]);
 
-/* Angles of a unit vector, exact near the pole. */
-double lmp_rgl_theta(const double w[3]);
+/* Return the angles of a unit vector, exact near the pole. */
+double lmpi_rgl_theta(const double w[3]);
 
-/* f_r of two directions: the file's value over the cosine of the second. */
-void lmp_rgl_eval(const lmp_brdf *brdf, const double first[3], const double second[3],
-                  double rgb[3]);
+/* Evaluates f_r of two directions: the file's value over the cosine of the second. */
+void lmpi_rgl_eval(const lmp_brdf *brdf, const double first[3], const double second[3],
+                   double rgb[3]);
 
 #endif

@@ -6,11 +6,11 @@
 
 #define DIMENSIONS_MAX 8
 
-/* Rings of 0.7 degrees for samples that are interpolated. */
+/* Tables take rings of 0.7 degrees, because samples are interpolated. */
 #define RINGS          128
 #define RINGS_PER_BAND 2
 
-/* Fields of the format; the first are those this reader uses. */
+/* Fields of the format; this reader uses the first ones. */
 typedef enum rgl_field_id {
     FIELD_THETA,
     FIELD_PHI,
@@ -40,13 +40,13 @@ static const struct {
     { "description", RGL_U8, 1, false },
 };
 
-/* Bytes of an element by its type number. */
+/* Bytes of an element, by its type number. */
 static const unsigned char type_sizes[12] = { 0, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8 };
 
 typedef struct rgl_field {
     bool present;
     uint64_t shape[DIMENSIONS_MAX];
-    size_t offset; /* of the data; it lies in the file */
+    size_t offset; /* offset of the data in the file */
     size_t count;  /* elements */
 } rgl_field;
 
@@ -63,7 +63,7 @@ static bool wrong(const rgl_file *file, size_t offset, const char *format, ...)
 static bool wrong(const rgl_file *file, size_t offset, const char *format, ...) {
     va_list list;
     va_start(list, format);
-    lmp_brdf_fail_list(file->error, LMP_ERROR_FORMAT, offset, format, list);
+    lmpi_parse_fail_list(file->error, LMP_ERROR_FORMAT, offset, format, list);
     va_end(list);
     return false;
 }
@@ -82,7 +82,7 @@ static bool read_extent(const rgl_file *file, size_t at, int dimensions, int typ
                         int number, rgl_field *field) {
     uint64_t count = 1;
     for (int d = 0; d < dimensions; d++) {
-        const uint64_t n = lmp_bytes_at_u64(file->bytes + at + 8 * (size_t)d);
+        const uint64_t n = lmpi_bytes_at_u64(file->bytes + at + 8 * (size_t)d);
         if (n == 0)
             return wrong(file, at + 8 * (size_t)d, "field %d has dimension %d of size 0", number,
                          d);
@@ -114,7 +114,7 @@ static bool read_entry(rgl_file *file, int number, size_t *at) {
     const size_t rest = start + 2 + length;
     const int dimensions = (int)(file->bytes[rest] | file->bytes[rest + 1] << 8);
     const int type = file->bytes[rest + 2];
-    const uint64_t offset = lmp_bytes_at_u64(file->bytes + rest + 3);
+    const uint64_t offset = lmpi_bytes_at_u64(file->bytes + rest + 3);
     if (type < 1 || type >= (int)sizeof type_sizes)
         return wrong(file, rest + 2, "field %d has unknown type %d", number, type);
     if (dimensions > DIMENSIONS_MAX)
@@ -142,11 +142,11 @@ static bool read_directory(rgl_file *file) {
     if (file->size < RGL_HEADER || memcmp(file->bytes, RGL_MAGIC, RGL_MAGIC_SIZE) != 0)
         return wrong(file, 0, "not a tensor file (no 'tensor_file' at the start)");
     if (file->bytes[12] != 1) {
-        lmp_brdf_fail(file->error, LMP_ERROR_VERSION, 12, "tensor file version %d.%d, not 1.x",
-                      file->bytes[12], file->bytes[13]);
+        lmpi_parse_fail(file->error, LMP_ERROR_VERSION, 12, "tensor file version %d.%d, not 1.x",
+                        file->bytes[12], file->bytes[13]);
         return false;
     }
-    const uint32_t count = lmp_bytes_at_u32(file->bytes + 14);
+    const uint32_t count = lmpi_bytes_at_u32(file->bytes + 14);
     size_t at = RGL_HEADER;
     for (uint32_t i = 0; i < count; i++)
         if (!read_entry(file, (int)i, &at))
@@ -203,7 +203,7 @@ static bool check_shapes(const rgl_file *file) {
 static bool copy_floats(const rgl_file *file, rgl_field_id id, float minimum, float *out) {
     const rgl_field *field = &file->fields[id];
     for (size_t i = 0; i < field->count; i++) {
-        out[i] = lmp_bytes_at_f32(file->bytes + field->offset + 4 * i);
+        out[i] = lmpi_bytes_at_f32(file->bytes + field->offset + 4 * i);
         if (!(out[i] >= minimum && out[i] <= 1e30f))
             return wrong(file, field->offset + 4 * i, "value %zu of '%s' is %s", i, known[id].name,
                          out[i] < minimum ? "below its range" : "not a finite number");
@@ -219,7 +219,8 @@ static bool is_ascending(const rgl_file *file, rgl_field_id id, const float *val
     return true;
 }
 
-/* theta_i in 0 … pi/2; phi_i over a full, half or quarter turn that begins at a quarter. */
+/* Checks that theta_i lies in 0 … pi/2, and that phi_i covers a full turn, half a turn, or a
+ * quarter turn that begins at a multiple of one. */
 static bool check_angles(const rgl_file *file, brdf_rgl *rgl) {
     if (!is_ascending(file, FIELD_THETA, rgl->theta) || !is_ascending(file, FIELD_PHI, rgl->phi))
         return false;
@@ -245,13 +246,14 @@ static bool check_angles(const rgl_file *file, brdf_rgl *rgl) {
 
 /* --- color ------------------------------------------------------------------------------------ */
 
-/* A bell of different widths on both sides. */
+/* A bell curve with a width on either side of its center. */
 static double bell(double x, double center, double left, double right) {
     const double t = (x - center) / (x < center ? left : right);
     return exp(-t * t / 2);
 }
 
-/* CIE 1931 color matching functions, nm: the multi-lobe fit of Wyman, Sloan and Shirley (2013). */
+/* Evaluates the CIE 1931 color matching functions at a wavelength in nm: the multi-lobe fit of
+ * Wyman, Sloan and Shirley (2013). */
 static void observer(double nm, double xyz[3]) {
     xyz[0] = 1.056 * bell(nm, 599.8, 37.9, 31.0) + 0.362 * bell(nm, 442.0, 16.0, 26.7) -
              0.065 * bell(nm, 501.1, 20.4, 26.2);
@@ -267,7 +269,8 @@ static const double rgb_from_xyz[3][3] = {
     { 0.0635948, -0.2145632, 1.1509684 },
 };
 
-/* weights[3 i + c]: what wavelength i adds to channel c, for trapezoids between the wavelengths. */
+/* Computes weights[3 i + c], what wavelength i adds to channel c, by trapezoids between the
+ * wavelengths. */
 static bool spectral_weights(const rgl_file *file, const float *nm, double *weights) {
     const size_t count = file->fields[FIELD_WAVELENGTHS].count;
     double sum[3] = { 0, 0, 0 };
@@ -296,7 +299,7 @@ static bool spectral_weights(const rgl_file *file, const float *nm, double *weig
     return true;
 }
 
-/* rgb[slice][channel][plane] from spectra[slice][wavelength][plane]. */
+/* Computes rgb[slice][channel][plane] from spectra[slice][wavelength][plane]. */
 static bool add_spectra(const rgl_file *file, size_t slices, size_t plane, const double *weights,
                         float *rgb) {
     const rgl_field *field = &file->fields[FIELD_SPECTRA];
@@ -306,7 +309,7 @@ static bool add_spectra(const rgl_file *file, size_t slices, size_t plane, const
             double sum[3] = { 0, 0, 0 };
             for (size_t w = 0; w < count; w++) {
                 const size_t at = field->offset + 4 * ((slice * count + w) * plane + i);
-                const double value = (double)lmp_bytes_at_f32(file->bytes + at);
+                const double value = (double)lmpi_bytes_at_f32(file->bytes + at);
                 if (!(fabs(value) <= 1e30))
                     return wrong(file, at, "a value of 'spectra' is not a finite number");
                 for (size_t c = 0; c < 3; c++)
@@ -321,14 +324,14 @@ static bool add_spectra(const rgl_file *file, size_t slices, size_t plane, const
 static lmp_result convert_spectra(const rgl_file *file, const lmp_host *host, size_t slices,
                                   size_t plane, float *rgb) {
     const size_t count = file->fields[FIELD_WAVELENGTHS].count;
-    double *weights = lmp_allocate(host, count * (3 * sizeof(double) + sizeof(float)));
+    double *weights = lmpi_allocate(host, count * (3 * sizeof(double) + sizeof(float)));
     if (!weights)
         return LMP_ERROR_MEMORY;
     float *nm = (float *)(weights + 3 * count);
     const bool good =
         copy_floats(file, FIELD_WAVELENGTHS, 1, nm) && is_ascending(file, FIELD_WAVELENGTHS, nm) &&
         spectral_weights(file, nm, weights) && add_spectra(file, slices, plane, weights, rgb);
-    lmp_release(host, weights);
+    lmpi_release(host, weights);
     return good ? LMP_OK : LMP_ERROR_FORMAT;
 }
 
@@ -353,7 +356,7 @@ static size_t lay_out(const rgl_file *file, brdf_rgl *rgl, float *base) {
         f[FIELD_VNDF].count,
         f[FIELD_VNDF].count,
         slices * (size_t)f[FIELD_VNDF].shape[2],
-        samples->count / samples->shape[2] * 3,
+        (size_t)(samples->count / samples->shape[2] * 3),
     };
     float *parts[8];
     size_t total = 0;
@@ -375,7 +378,7 @@ static size_t lay_out(const rgl_file *file, brdf_rgl *rgl, float *base) {
 
 static lmp_result fill(const rgl_file *file, const lmp_host *host, lmp_brdf *brdf) {
     brdf_rgl *rgl = &brdf->rgl;
-    float *base = lmp_brdf_extra(brdf);
+    float *base = lmpi_brdf_extra(brdf);
     lay_out(file, rgl, base);
     const size_t thetas = file->fields[FIELD_THETA].count, phis = file->fields[FIELD_PHI].count;
     float *grids = base + thetas + phis;
@@ -385,7 +388,7 @@ static lmp_result fill(const rgl_file *file, const lmp_host *host, lmp_brdf *brd
         !copy_floats(file, FIELD_SIGMA, 0, grids + file->fields[FIELD_NDF].count) ||
         !copy_floats(file, FIELD_VNDF, 0, rgl->density))
         return LMP_ERROR_FORMAT;
-    const size_t slice = lmp_rgl_accumulate(rgl);
+    const size_t slice = lmpi_rgl_accumulate(rgl);
     if (slice < thetas * phis) {
         wrong(file, file->fields[FIELD_VNDF].offset, "slice %zu of 'vndf' is zero", slice);
         return LMP_ERROR_FORMAT;
@@ -407,15 +410,15 @@ lmp_result lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size
         return size > 13 && memcmp(data, RGL_MAGIC, RGL_MAGIC_SIZE) == 0 && file.bytes[12] != 1
                    ? LMP_ERROR_VERSION
                    : LMP_ERROR_FORMAT;
-    const lmp_host resolved = lmp_host_resolve(host);
+    const lmp_host resolved = lmpi_host_resolve(host);
     brdf_rgl shape = { 0 };
     lmp_brdf *made = NULL;
     lmp_result result =
-        lmp_brdf_new(&resolved, LMP_BRDF_RGL, lay_out(&file, &shape, NULL) * sizeof(float), &made);
+        lmpi_brdf_new(&resolved, LMP_BRDF_RGL, lay_out(&file, &shape, NULL) * sizeof(float), &made);
     if (result == LMP_OK)
         result = fill(&file, &resolved, made);
     if (result == LMP_ERROR_MEMORY)
-        lmp_brdf_fail(error, result, 0, "no memory for the samples");
+        lmpi_parse_fail(error, result, 0, "out of memory for the samples");
     if (result != LMP_OK) {
         lmp_brdf_destroy(made);
         return result;
@@ -426,7 +429,7 @@ lmp_result lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size
     made->rings_per_band = RINGS_PER_BAND;
     made->info.shape[0] = made->rgl.phi_count;
     made->info.shape[1] = made->rgl.theta_count;
-    made->eval = lmp_rgl_eval;
+    made->eval = lmpi_rgl_eval;
     *brdf = made;
     return LMP_OK;
 }

@@ -35,7 +35,7 @@ static double luminance(const double rgb[3]) {
     return (rgb[0] + rgb[1] + rgb[2]) / 3;
 }
 
-/* The normal at coordinates u; an isotropic file counts phi from the view's. */
+/* Finds the normal at coordinates u; an isotropic file counts phi from that of the view. */
 static void normal_at(const double u[2], double phi_i, double m[3]) {
     const double theta = BRDF_PI / 2 * u[0] * u[0];
     const double phi = u[1] * 2 * BRDF_PI - BRDF_PI + phi_i;
@@ -44,7 +44,7 @@ static void normal_at(const double u[2], double phi_i, double m[3]) {
     m[2] = cos(theta);
 }
 
-/* (u, v) of node i of a grid. */
+/* Finds (u, v) of node i of a grid. */
 static void node_at(int width, int height, size_t i, double u[2]) {
     u[0] = (double)(i % (size_t)width) / (width - 1);
     u[1] = height > 1 ? (double)(i / (size_t)width) / (height - 1) : 0;
@@ -58,7 +58,7 @@ static void fill_angles(const writer *w) {
             w->rgl.isotropic ? 0 : (float)(-BRDF_PI + 2 * BRDF_PI * i / (w->rgl.phi_count - 1));
 }
 
-/* Retro-reflection as a distribution of normals, largest value 1. */
+/* Fills the distribution of normals from retro-reflection; its largest value is 1. */
 static void fill_ndf(const writer *w) {
     const brdf_grid *grid = &w->rgl.ndf;
     const size_t count = (size_t)grid->width * (size_t)grid->height;
@@ -77,7 +77,8 @@ static void fill_ndf(const writer *w) {
         }
 }
 
-/* Projected area of the normals, ∫ D max(m·w, 0) dm, up to a factor, and each slice of density. */
+/* Fills the projected areas of the normals, ∫ D max(m·w, 0) dm, up to a factor, and each slice of
+ * density. */
 static void fill_densities(const writer *w) {
     const brdf_rgl *rgl = &w->rgl;
     const size_t plane = (size_t)rgl->vndf_width * (size_t)rgl->vndf_height;
@@ -92,7 +93,7 @@ static void fill_densities(const writer *w) {
                 node_at(rgl->vndf_width, rgl->vndf_height, i, u);
                 normal_at(u, 0, m);
                 const double solid = sqrt(1 - m[2] * m[2]) * u[0];
-                const double d = lmp_rgl_bilinear(&rgl->ndf, u) * fmax(brdf_dot(a, m), 0) * solid;
+                const double d = lmpi_rgl_bilinear(&rgl->ndf, u) * fmax(brdf_dot(a, m), 0) * solid;
                 density[i] = (float)d;
                 sum += d;
             }
@@ -112,22 +113,22 @@ static void fill_sigma(const writer *w) {
                 const double v[2] = { ((double)i + 0.5) / NDF_WIDTH, (j + 0.5) / 64 };
                 double m[3];
                 normal_at(v, 0, m);
-                sum += lmp_rgl_bilinear(&w->rgl.ndf, v) * fmax(brdf_dot(a, m), 0) *
+                sum += lmpi_rgl_bilinear(&w->rgl.ndf, v) * fmax(brdf_dot(a, m), 0) *
                        sqrt(1 - m[2] * m[2]) * v[0];
             }
         w->sigma[t] = (float)(sum * BRDF_PI * 2 * BRDF_PI / (NDF_WIDTH * 64));
     }
 }
 
-/* The coordinate u[axis] whose position in the square is s: the remapping grows along each axis,
- * and the second of its coordinates depends on u[1] alone. */
+/* Finds the coordinate u[axis] that maps to s in the square: the map grows along each axis, and its
+ * second coordinate depends on u[1] alone. */
 static double unwarp(const brdf_rgl *rgl, const rgl_slices *slices, int axis, double s, double v) {
     double low = 0, high = 1;
     for (int step = 0; step < 32; step++) {
         const double middle = (low + high) / 2;
         const double u[2] = { axis == 0 ? middle : 0, axis == 0 ? v : middle };
         double here[2];
-        lmp_rgl_warp(rgl, slices, u, here);
+        lmpi_rgl_warp(rgl, slices, u, here);
         if (here[axis] < s)
             low = middle;
         else
@@ -136,8 +137,8 @@ static double unwarp(const brdf_rgl *rgl, const rgl_slices *slices, int axis, do
     return (low + high) / 2;
 }
 
-/* The value for the normal at u: f_r cos theta_o over the estimate. Below the horizon the odd
- * continuation, so that interpolation passes through 0 there. */
+/* Samples the value for the normal at u: f_r cos theta_o over the estimate. Below the horizon the
+ * value is continued as an odd function, so that interpolation passes through 0 there. */
 static void sample(const writer *w, double theta, double phi, const double u[2], double rgb[3]) {
     const brdf_rgl *rgl = &w->rgl;
     double m[3], b[3];
@@ -151,14 +152,14 @@ static void sample(const writer *w, double theta, double phi, const double u[2],
     lmp_brdf_eval_double(w->brdf, a, b, rgb);
     const double u_a[2] = { sqrt(theta * 2 / BRDF_PI), (phi + BRDF_PI) / (2 * BRDF_PI) };
     const double estimate =
-        lmp_rgl_bilinear(&rgl->ndf, u) / (4 * lmp_rgl_bilinear(&rgl->sigma, u_a));
+        lmpi_rgl_bilinear(&rgl->ndf, u) / (4 * lmpi_rgl_bilinear(&rgl->sigma, u_a));
     for (int c = 0; c < 3; c++)
         rgb[c] = fmin(fmax(rgb[c] * cosine / estimate, -1e30), 1e30);
 }
 
 static void fill_slice(const writer *w, double theta, double phi, float *out) {
     const brdf_rgl *rgl = &w->rgl;
-    const rgl_slices slices = lmp_rgl_slices(rgl, theta, phi);
+    const rgl_slices slices = lmpi_rgl_slices(rgl, theta, phi);
     const int width = rgl->rgb_width, height = rgl->rgb_height;
     const size_t plane = (size_t)width * (size_t)height;
     for (int y = 0; y < height; y++) {
@@ -226,7 +227,7 @@ static void write_fields(const out_field *fields, size_t count, unsigned char *b
     p += RGL_MAGIC_SIZE;
     *p++ = 1;
     *p++ = 0;
-    p = lmp_bytes_store_u32(p, (uint32_t)count);
+    p = lmpi_bytes_store_u32(p, (uint32_t)count);
     size_t offset = directory_size(fields, count);
     for (size_t i = 0; i < count; i++) {
         const out_field *field = &fields[i];
@@ -238,14 +239,14 @@ static void write_fields(const out_field *fields, size_t count, unsigned char *b
         *p++ = (unsigned char)field->dimensions;
         *p++ = 0;
         *p++ = (unsigned char)field->type;
-        p = lmp_bytes_store_u64(p, offset);
+        p = lmpi_bytes_store_u64(p, offset);
         for (int d = 0; d < field->dimensions; d++)
-            p = lmp_bytes_store_u64(p, field->shape[d]);
+            p = lmpi_bytes_store_u64(p, field->shape[d]);
         if (field->type == RGL_U8)
             memcpy(bytes + offset, field->values, out_count(field));
         else
             for (size_t k = 0; k < out_count(field); k++)
-                lmp_bytes_store_f32(bytes + offset + 4 * k, ((const float *)field->values)[k]);
+                lmpi_bytes_store_f32(bytes + offset + 4 * k, ((const float *)field->values)[k]);
         offset += out_bytes(field);
     }
 }
@@ -272,7 +273,7 @@ static lmp_result write_file(const writer *w, const lmp_host *host, void **data,
     size_t total = directory_size(fields, count);
     for (size_t i = 0; i < count; i++)
         total += out_bytes(&fields[i]);
-    *data = lmp_allocate(host, total);
+    *data = lmpi_allocate(host, total);
     if (!*data)
         return LMP_ERROR_MEMORY;
     *size = total;
@@ -297,7 +298,7 @@ static void set_shape(writer *w) {
     r->rgb_width = r->rgb_height = isotropic ? SAMPLE_SIZE : ANISO_SAMPLE_SIZE;
 }
 
-/* Floats of every array, in one block. */
+/* Lays all arrays out in one block; returns the floats they take. */
 static size_t lay_out(writer *w, float *base) {
     brdf_rgl *r = &w->rgl;
     const size_t slices = (size_t)r->phi_count * (size_t)r->theta_count;
@@ -327,15 +328,15 @@ static size_t lay_out(writer *w, float *base) {
     return total;
 }
 
-lmp_result lmp_brdf_write_rgl(const lmp_host *host, const lmp_brdf *brdf, void **data,
-                              size_t *size) {
+lmp_result lmp_brdf_encode_rgl(const lmp_host *host, const lmp_brdf *brdf, void **data,
+                               size_t *size) {
     *data = NULL;
     *size = 0;
-    const lmp_host resolved = lmp_host_resolve(host);
+    const lmp_host resolved = lmpi_host_resolve(host);
     writer w = { .brdf = brdf };
     set_shape(&w);
     const size_t floats = lay_out(&w, NULL);
-    float *block = lmp_allocate(&resolved, floats * sizeof *block);
+    float *block = lmpi_allocate(&resolved, floats * sizeof *block);
     if (!block)
         return LMP_ERROR_MEMORY;
     lay_out(&w, block);
@@ -343,13 +344,13 @@ lmp_result lmp_brdf_write_rgl(const lmp_host *host, const lmp_brdf *brdf, void *
     fill_ndf(&w);
     fill_sigma(&w);
     fill_densities(&w);
-    lmp_rgl_accumulate(&w.rgl);
+    lmpi_rgl_accumulate(&w.rgl);
     const size_t slices = (size_t)w.rgl.phi_count * (size_t)w.rgl.theta_count;
-    lmp_result result = lmp_host_run(&resolved, 0, 1, slices, fill_slice_task, &w);
+    lmp_result result = lmpi_host_run(&resolved, 0, 1, slices, fill_slice_task, &w);
     if (result == LMP_OK) {
         fill_luminances(&w);
         result = write_file(&w, &resolved, data, size);
     }
-    lmp_release(&resolved, block);
+    lmpi_release(&resolved, block);
     return result;
 }

@@ -4,12 +4,13 @@
 
 #include <math.h>
 
-/* exp of anything above is infinite in double. */
+/* The exponential of anything larger overflows a double. */
 #define EXPONENT_MAX 700.0
-/* Any fit's values stay finite as floats, and so do sums of them. */
+/* A bound below which the values of any fit, and their sums, stay finite as floats. */
 #define VALUE_MAX 1e30
 
-/* P22(tan² theta_h) / (pi cos⁴ theta_h), P22(x) = K exp(-s) s^-p, s = alpha + x/alpha. */
+/* Computes P22(tan² theta_h) / (pi cos⁴ theta_h), with P22(x) = K exp(-s) s^-p, s = alpha +
+ * x/alpha. */
 static double distribution(const lmp_sgd *sgd, int c, double cos_h) {
     const double cos2 = cos_h * cos_h, tan2 = (1 - cos2) / cos2;
     const double s = sgd->alpha[c] + fmax(tan2, 0) / sgd->alpha[c];
@@ -18,8 +19,9 @@ static double distribution(const lmp_sgd *sgd, int c, double cos_h) {
     return sgd->k_ap[c] * exp(-s - sgd->p[c] * log(s)) / (BRDF_PI * cos2 * cos2);
 }
 
-/* clamp(1 + lambda (1 - exp(c t^k)), 0, 1), t = theta - theta0. k reaches 856 and c 1e38, so only
- * their product is meaningful: it is formed in logarithms, and held below overflow. */
+/* Computes clamp(1 + lambda (1 - exp(c t^k)), 0, 1), with t = theta - theta0. k reaches 856 and c
+ * 1e38, so only their product is meaningful: it is formed in logarithms and clamped below overflow.
+ */
 static double shadowing(const lmp_sgd *sgd, int c, double theta) {
     const double t = theta - sgd->theta0[c];
     const double power = t > 0 ? exp(fmin(sgd->k[c] * log(t), EXPONENT_MAX - 90)) : 0;
@@ -30,7 +32,7 @@ static double shadowing(const lmp_sgd *sgd, int c, double theta) {
 static void eval_sgd(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]) {
     const lmp_sgd *sgd = &brdf->sgd;
     double h[3];
-    lmp_brdf_half(a, b, h);
+    lmpi_brdf_half_vector(a, b, h);
     const double cos_d = brdf_dot(a, h), u = 1 - cos_d, u5 = u * u * u * u * u;
     const double theta_a = acos(fmin(a[2], 1)), theta_b = acos(fmin(b[2], 1));
     for (int c = 0; c < 3; c++) {
@@ -59,7 +61,7 @@ lmp_result lmp_brdf_create_sgd(const lmp_host *host, const lmp_sgd *sgd, lmp_brd
     *brdf = NULL;
     if (!is_valid(sgd))
         return LMP_ERROR_ARGUMENT;
-    const lmp_result result = lmp_brdf_new(host, LMP_BRDF_SGD, 0, brdf);
+    const lmp_result result = lmpi_brdf_new(host, LMP_BRDF_SGD, 0, brdf);
     if (result != LMP_OK)
         return result;
     (*brdf)->sgd = *sgd;
@@ -68,13 +70,13 @@ lmp_result lmp_brdf_create_sgd(const lmp_host *host, const lmp_sgd *sgd, lmp_brd
     return LMP_OK;
 }
 
-const char *lmp_sgd_name(size_t index) {
-    return index < lmp_sgd_row_count ? lmp_sgd_rows[index].name : NULL;
+const char *lmp_brdf_sgd_name(size_t index) {
+    return index < lmpi_sgd_row_count ? lmpi_sgd_rows[index].name : NULL;
 }
 
-lmp_result lmp_sgd_find(const char *name, lmp_sgd *sgd) {
-    for (size_t i = 0; *name && i < lmp_sgd_row_count; i++) {
-        const brdf_sgd_row *row = &lmp_sgd_rows[i];
+lmp_result lmp_brdf_find_sgd(const char *name, lmp_sgd *sgd) {
+    for (size_t i = 0; *name && i < lmpi_sgd_row_count; i++) {
+        const brdf_sgd_row *row = &lmpi_sgd_rows[i];
         if (strcmp(name, row->name) == 0 || strcmp(name, row->alias) == 0) {
             *sgd = row->sgd;
             return LMP_OK;

@@ -2,13 +2,14 @@
 /* clang-format off */
 /* Written by generate/sgd_table.awk: do not edit.
  *
- * Parameters that M. Bagher, C. Soler and N. Holzschuch fitted to the materials of the MERL BRDF
- * database: "Accurate fitting of measured reflectances using a Shifted Gamma micro-facet
- * distribution", Computer Graphics Forum 31(4), 2012; measurements by W. Matusik, H. Pfister, M. Brand
- * and L. McMillan, "A Data-Driven Reflectance Model", ACM TOG 22(3), 2003. The numbers are CC0 1.0. */
+ * SGD parameters fitted to the materials of the MERL BRDF database by M. Bagher, C. Soler and
+ * N. Holzschuch: "Accurate fitting of measured reflectances using a Shifted Gamma micro-facet
+ * distribution", Computer Graphics Forum 31(4), 2012. The materials were measured by W. Matusik,
+ * H. Pfister, M. Brand and L. McMillan: "A Data-Driven Reflectance Model", ACM TOG 22(3), 2003.
+ * The numbers are available under CC0 1.0. */
 #include "src/brdf/sgd_table.h"
 
-const brdf_sgd_row lmp_sgd_rows[] = {
+const brdf_sgd_row lmpi_sgd_rows[] = {
     { "alum-bronze", "alum-bronze", {
         { 0.0478786, 0.0313514, 0.0200638 },
         { 0.0364976, 0.664975, 0.268836 },
@@ -1210,4 +1211,4 @@ const brdf_sgd_row lmp_sgd_rows[] = {
         { 18.6813, 9.73614, 16.4495 },
         { -0.60265, 0.393386, 0.781122 } } },
 };
-const size_t lmp_sgd_row_count = sizeof lmp_sgd_rows / sizeof *lmp_sgd_rows;
+const size_t lmpi_sgd_row_count = sizeof lmpi_sgd_rows / sizeof *lmpi_sgd_rows;

@@ -11,7 +11,7 @@ typedef struct brdf_sgd_row {
     lmp_sgd sgd;
 } brdf_sgd_row;
 
-extern const brdf_sgd_row lmp_sgd_rows[];
-extern const size_t lmp_sgd_row_count;
+extern const brdf_sgd_row lmpi_sgd_rows[];
+extern const size_t lmpi_sgd_row_count;
 
 #endif

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* sheen.c - cloth as KHR_materials_sheen has it: fibers that stand on a diffuse base, by the
- * distribution and the masking of Conty Estevez and Kulla (2017), held to what arrives, and what
- * they leave of the base. */
+ * distribution and the masking of Conty Estevez and Kulla (2017), limited to the light that
+ * arrives, and what they leave of the base. */
 #include "src/brdf/brdf.h"
 #include "src/sh/quadrature.h"
 
 #include <math.h>
 
-/* --- the fibers ------------------------------------------------------------------------------- */
+/* --- the sheen -------------------------------------------------------------------------------- */
 
-/* A fit of the logarithm of the masking by its authors: of a cosine, by rows for alpha 0 and 1. */
+/* A fit of the logarithm of the masking by its authors, over a cosine; the rows are for alpha 0 and
+ * 1. */
 static double masking_log(double cosine, double alpha) {
     static const double rows[2][5] = { { 25.3245, 3.32435, 0.16801, -1.27393, -4.85967 },
                                        { 21.5473, 3.82987, 0.19823, -1.97760, -4.32054 } };
@@ -26,22 +27,22 @@ static double masking(double cosine, double alpha) {
     return exp(2 * masking_log(0.5, alpha) - masking_log(fmax(1 - cosine, 0), alpha));
 }
 
-/* Nearer to the horizon the fit of the masking ends, and the quotient by the cosine grows without
- * bound. */
+/* Clamps a cosine to where the fit of the masking is valid: nearer to the horizon the quotient by
+ * the cosine grows without bound. */
 static double held_cosine(double cosine) {
     return fmax(cosine, 1e-4);
 }
 
-/* The distribution of half vectors where their sine is 1. */
+/* Returns the distribution of half vectors where their sine is 1. */
 static double normal_scale(double alpha) {
     return (2 + 1 / alpha) / (2 * BRDF_PI);
 }
 
-/* f_r of white fibers as the specification has it, times a cosine a.z, with which it is finite at
- * a's horizon; `masked` is the sum of the masking of both. */
-static double fibers_cosine(double alpha, double masked, const double a[3], const double b[3]) {
+/* Computes f_r of white sheen by the specification, times a cosine a.z, which keeps it finite at
+ * a's horizon; `masked` is the sum of the maskings of both directions. */
+static double sheen_cosine(double alpha, double masked, const double a[3], const double b[3]) {
     double h[3];
-    lmp_brdf_half(a, b, h);
+    lmpi_brdf_half_vector(a, b, h);
     const double square = fmax(1 - h[2] * h[2], 0);
     return normal_scale(alpha) * pow(square, 0.5 / alpha) / ((1 + masked) * 4 * held_cosine(b[2]));
 }
@@ -50,7 +51,8 @@ static double fibers_cosine(double alpha, double masked, const double a[3], cons
 
 enum { NODES = BRDF_SHEEN_ALBEDOS };
 
-/* Nodes lie evenly in the root of the cosine: toward the horizon fibers change fastest. */
+/* Interpolates between nodes, which lie evenly in the square root of the cosine, because sheen
+ * change fastest toward the horizon. */
 static double between_nodes(const double values[NODES], double cosine) {
     const double at = sqrt(fmin(cosine, 1)) * (NODES - 1);
     const int i = at < NODES - 2 ? (int)at : NODES - 2;
@@ -61,9 +63,9 @@ static double gain_of(const brdf_sheen *sheen, double a, double b) {
     return fmax(fmax(between_nodes(sheen->gain, a), between_nodes(sheen->gain, b)), 1);
 }
 
-/* A uniform sky over fibers, by Gauss's nodes in the root of the light's cosine and in the root of
- * its azimuth from the view: dense toward the horizon, where they shine. Light on the far side of
- * the view and on its own counts alike. */
+/* A uniform sky over sheen, by Gauss's nodes in the square root of the light's cosine and in that
+ * of its azimuth from the view: both are dense toward the horizon, where sheen is bright. Light on
+ * the far side of the view counts as light on its own side. */
 enum { RINGS = 48 };
 typedef struct sky {
     double z[RINGS], radius[RINGS], masked[RINGS], weight[RINGS];
@@ -73,7 +75,7 @@ typedef struct sky {
 static void sky_prepare(sky *over, double alpha) {
     for (int i = 0; i < RINGS; i++) {
         double node, weight;
-        lmp_gauss_legendre(RINGS, i, &node, &weight);
+        lmpi_gauss_legendre(RINGS, i, &node, &weight);
         const double root = (1 + node) / 2, z = root * root;
         over->z[i] = z;
         over->radius[i] = sqrt(1 - z * z);
@@ -84,8 +86,8 @@ static void sky_prepare(sky *over, double alpha) {
     }
 }
 
-/* What fibers that are not divided by their gain reflect of each ring. The half vector's height
- * comes from the cosine between light and view. */
+/* Computes what sheen reflects of each ring before it is divided by its gain. The half
+ * vector's height comes from the cosine between light and view. */
 static void reflect_rings(const sky *over, double alpha, double cosine, double rings[RINGS]) {
     const double side = sqrt(1 - cosine * cosine), power = 0.5 / alpha;
     const double masked = masking(held_cosine(cosine), alpha);
@@ -103,7 +105,7 @@ static void reflect_rings(const sky *over, double alpha, double cosine, double r
     }
 }
 
-/* The albedos of a sheen whose gain is known. */
+/* Fills the albedos of a sheen whose gain is known. */
 static void fill_albedos(const sky *over, double (*rings)[RINGS], brdf_sheen *sheen) {
     for (int i = 0; i < NODES; i++) {
         const double root = (double)i / (NODES - 1);
@@ -113,12 +115,12 @@ static void fill_albedos(const sky *over, double (*rings)[RINGS], brdf_sheen *sh
     }
 }
 
-/* Smooth fibers reflect up to three times what arrives, by the specification's masking. Divided by
- * the larger of the albedos toward a and b, where it exceeds 1, they reflect no more than arrives,
- * and remain reciprocal. */
+/* Limits the gain: by the specification's masking, smooth sheen reflects up to three times what
+ * arrives. Divided by the larger of the albedos toward a and b, where it exceeds 1, they reflect no
+ * more than arrives and remain reciprocal. */
 static lmp_result limit_gain(const lmp_host *host, brdf_sheen *sheen) {
-    const double between = 1.003; /* that of what lies between two nodes is larger by less */
-    double largest = 0, (*rings)[RINGS] = lmp_allocate(host, NODES * sizeof *rings);
+    const double between = 1.003; /* the gain between two nodes is larger by less */
+    double largest = 0, (*rings)[RINGS] = lmpi_allocate(host, NODES * sizeof *rings);
     sky over;
     if (!rings)
         return LMP_ERROR_MEMORY;
@@ -136,7 +138,7 @@ static lmp_result limit_gain(const lmp_host *host, brdf_sheen *sheen) {
             sheen->gain[i] = between * sheen->albedo[i];
         fill_albedos(&over, rings, sheen);
     }
-    lmp_release(host, rings);
+    lmpi_release(host, rings);
     return LMP_OK;
 }
 
@@ -144,14 +146,14 @@ static void eval_sheen(const lmp_brdf *brdf, const double a[3], const double b[3
     const brdf_sheen *sheen = &brdf->sheen;
     const double la = held_cosine(a[2]), lb = held_cosine(b[2]);
     const double masked = masking(la, sheen->alpha) + masking(lb, sheen->alpha);
-    const double fibers =
-        fibers_cosine(sheen->alpha, masked, a, b) / (la * gain_of(sheen, a[2], b[2]));
+    const double white =
+        sheen_cosine(sheen->alpha, masked, a, b) / (la * gain_of(sheen, a[2], b[2]));
     const double held =
         fmax(between_nodes(sheen->albedo, a[2]), between_nodes(sheen->albedo, b[2]));
     const double most = fmax(sheen->color[0], fmax(sheen->color[1], sheen->color[2]));
     const double passed = fmax(1 - most * held, 0);
     for (int c = 0; c < 3; c++)
-        rgb[c] = sheen->color[c] * fibers + passed * sheen->diffuse[c] / BRDF_PI;
+        rgb[c] = sheen->color[c] * white + passed * sheen->diffuse[c] / BRDF_PI;
 }
 
 /* --- making one ------------------------------------------------------------------------------- */
@@ -172,7 +174,7 @@ lmp_result lmp_brdf_create_sheen(const lmp_host *host, const lmp_sheen *sheen, l
     if (!(roughness >= 0.0699 && roughness <= 1) || !take_color(sheen->color, 1, own.color) ||
         !take_color(sheen->diffuse, 3e38, own.diffuse))
         return LMP_ERROR_ARGUMENT;
-    const lmp_result result = lmp_brdf_new(host, LMP_BRDF_SHEEN, 0, brdf);
+    const lmp_result result = lmpi_brdf_new(host, LMP_BRDF_SHEEN, 0, brdf);
     if (result != LMP_OK)
         return result;
     const lmp_result limited = limit_gain(&(*brdf)->host, &own);

@@ -11,15 +11,15 @@
 #define RINGS_DEFAULT     512
 #define RINGS_MAX         2048
 
-lmp_result lmp_brdf_table_new(const lmp_host *host, const lmp_brdf_table_info *info,
-                              lmp_brdf_table **table) {
+lmp_result lmpi_brdf_table_new(const lmp_host *host, const lmp_brdf_table_info *info,
+                               lmp_brdf_table **table) {
     *table = NULL;
     const size_t count =
         info->mirrored ? LMP_SH_HALF_COUNT(info->bands) : LMP_SH_COUNT(info->bands);
     const size_t head = (sizeof **table + 15) & ~(size_t)15;
     const size_t floats = 3 * count * (size_t)info->views * (size_t)info->azimuths;
-    const lmp_host resolved = lmp_host_resolve(host);
-    lmp_brdf_table *made = lmp_allocate(&resolved, head + floats * sizeof(float));
+    const lmp_host resolved = lmpi_host_resolve(host);
+    lmp_brdf_table *made = lmpi_allocate(&resolved, head + floats * sizeof(float));
     if (!made)
         return LMP_ERROR_MEMORY;
     made->host = resolved;
@@ -32,7 +32,7 @@ lmp_result lmp_brdf_table_new(const lmp_host *host, const lmp_brdf_table_info *i
 }
 
 void lmp_brdf_table_destroy(lmp_brdf_table *table) {
-    lmp_release_object(table);
+    lmpi_release_object(table);
 }
 
 lmp_brdf_table_info lmp_brdf_table_describe(const lmp_brdf_table *table) {
@@ -54,16 +54,16 @@ typedef struct table_job {
     float *change; /* [azimuth][view]: at the last doubling; INFINITY before the first */
 } table_job;
 
-/* Writes a view's coefficients in the order of the table; returns the relative change. Compared by
- * hand: gcc 12 for AArch64 fails in the vectors that it makes of fmax. */
+/* Writes a view's coefficients in the order of the table; returns the relative change. Values are
+ * compared by hand because gcc 12 for AArch64 fails on the vectors that it makes of fmax. */
 static float store_view(const lmp_brdf_table_info *info, const double *cosine, const double *sine,
                         float *row) {
-    const size_t half = LMP_SH_HALF_COUNT(info->bands);
+    const size_t half_count = LMP_SH_HALF_COUNT(info->bands);
     double largest = 0, change = 0;
     for (size_t channel = 0; channel < 3; channel++, row += info->count)
         for (int l = 0; l < info->bands; l++)
             for (int m = info->mirrored ? 0 : -l; m <= l; m++) {
-                const size_t from = channel * half + brdf_half_index(info->bands, l, abs(m));
+                const size_t from = channel * half_count + brdf_half_index(info->bands, l, abs(m));
                 const double value = m < 0 ? sine[from] : cosine[from];
                 float *to = row + (info->mirrored ? LMP_SH_HALF_INDEX(l, m) : LMP_SH_INDEX(l, m));
                 const double size = fabs(value), moved = fabs(value - (double)*to);
@@ -80,8 +80,8 @@ static lmp_result make_view(size_t index, void *data) {
     const lmp_brdf_table_info *info = &table->info;
     if (job->change[index] <= job->tolerance)
         return LMP_OK;
-    const size_t half = LMP_SH_HALF_COUNT(info->bands);
-    double *parts = lmp_allocate(&table->host, 6 * half * sizeof *parts);
+    const size_t half_count = LMP_SH_HALF_COUNT(info->bands);
+    double *parts = lmpi_allocate(&table->host, 6 * half_count * sizeof *parts);
     if (!parts)
         return LMP_ERROR_MEMORY;
     const double theta = (double)info->theta_step * (double)(index % (size_t)info->views);
@@ -92,11 +92,11 @@ static lmp_result make_view(size_t index, void *data) {
         .rotation = { cos(phi), sin(phi) },
         .mirrored = info->mirrored,
     };
-    lmp_brdf_project_view(&projection, job->quadrature, parts, parts + 3 * half);
-    const float change =
-        store_view(info, parts, parts + 3 * half, table->coefficients + index * 3 * info->count);
+    lmpi_brdf_project_view(&projection, job->quadrature, parts, parts + 3 * half_count);
+    const float change = store_view(info, parts, parts + 3 * half_count,
+                                    table->coefficients + index * 3 * info->count);
     job->change[index] = isinf(job->change[index]) ? 1e30f : change;
-    lmp_release(&table->host, parts);
+    lmpi_release(&table->host, parts);
     return LMP_OK;
 }
 
@@ -118,20 +118,20 @@ static lmp_result refine(table_job *job, int rings_max) {
     for (;;) {
         brdf_quadrature quadrature;
         lmp_result result =
-            lmp_brdf_quadrature_create(&job->table->host, info->bands, rings, &quadrature);
+            lmpi_brdf_quadrature_create(&job->table->host, info->bands, rings, &quadrature);
         if (result != LMP_OK)
             return result;
         job->quadrature = &quadrature;
         /* each doubling costs four times the one before: a quarter of what is left */
         const double done = (double)rings * rings / ((double)rings_max * rings_max);
-        result = lmp_host_run(&job->table->host, done / 4, done, total, make_view, job);
-        lmp_brdf_quadrature_destroy(&job->table->host, &quadrature);
+        result = lmpi_host_run(&job->table->host, done / 4, done, total, make_view, job);
+        lmpi_brdf_quadrature_destroy(&job->table->host, &quadrature);
         if (result != LMP_OK)
             return result;
         info->rings = rings;
         info->change = largest_change(job, total);
         if (info->change <= job->tolerance || rings >= rings_max)
-            return lmp_host_report(&job->table->host, 1);
+            return lmpi_host_report(&job->table->host, 1);
         rings = 2 * rings < rings_max ? 2 * rings : rings_max;
     }
 }
@@ -139,7 +139,7 @@ static lmp_result refine(table_job *job, int rings_max) {
 static void apply_window(lmp_brdf_table *table) {
     const lmp_brdf_table_info *info = &table->info;
     float weights[LMP_BANDS_MAX];
-    lmp_sh_window(info->bands, info->window, info->window_size, weights);
+    lmp_sh_make_window(info->bands, info->window, info->window_size, weights);
     const size_t planes = 3 * (size_t)info->views * (size_t)info->azimuths;
     float *value = table->coefficients;
     for (size_t plane = 0; plane < planes; plane++)
@@ -182,14 +182,15 @@ static bool within(int value, int minimum, int maximum) {
     return value >= minimum && value <= maximum;
 }
 
-/* Five views to the wavelength of the last band, 2 pi / bands, at least: with fewer the cubic
- * between two views shows a narrow lobe twice. (An anisotropic table would take a gigabyte.) */
+/* Returns the default number of views: at least five to the wavelength of the last band, 2 pi /
+ * bands. With fewer, the cubic between two views shows a narrow lobe twice. (An anisotropic table
+ * would take a gigabyte.) */
 static int default_views(const lmp_brdf *brdf, int bands) {
     const int fine = (5 * bands + 3) / 4;
     return fine > LMP_BRDF_VIEWS_DEFAULT && !brdf->info.anisotropic ? fine : LMP_BRDF_VIEWS_DEFAULT;
 }
 
-/* The desc with its defaults in place; false if a value is out of range. */
+/* Fills in the desc's defaults; returns false if a value is out of range. */
 static bool resolve(const lmp_brdf *brdf, lmp_brdf_table_desc *desc) {
     desc->bands = desc->bands ? desc->bands : LMP_BRDF_BANDS_DEFAULT;
     desc->views = desc->views ? desc->views : default_views(brdf, desc->bands);
@@ -205,7 +206,7 @@ static bool resolve(const lmp_brdf *brdf, lmp_brdf_table_desc *desc) {
                           (within(desc->azimuths, 4, BRDF_AZIMUTHS_MAX) && desc->azimuths % 2 == 0);
     return within(desc->bands, 1, LMP_BANDS_MAX) && within(desc->views, 2, BRDF_VIEWS_MAX) &&
            azimuths && desc->tolerance > 0 && within(desc->rings_max, RINGS_MIN, RINGS_MAX) &&
-           within((int)desc->window, LMP_WINDOW_NONE, LMP_WINDOWS - 1) &&
+           within((int)desc->window, LMP_WINDOW_NONE, LMP_WINDOW_COUNT - 1) &&
            within((int)desc->symmetry, LMP_BRDF_SYMMETRY_AUTO, LMP_BRDF_SYMMETRY_NONE) &&
            desc->window_size >= 0 && isfinite(desc->window_size);
 }
@@ -225,17 +226,17 @@ lmp_result lmp_brdf_table_create(const lmp_host *host, const lmp_brdf_table_desc
         .window_size = own.window_size > 0 ? own.window_size : (float)own.bands,
     };
     lmp_brdf_table *made = NULL;
-    lmp_result result = lmp_brdf_table_new(host, &info, &made);
+    lmp_result result = lmpi_brdf_table_new(host, &info, &made);
     if (result != LMP_OK)
         return result;
     const size_t total = (size_t)own.views * (size_t)own.azimuths;
     table_job job = { .brdf = brdf, .table = made, .tolerance = own.tolerance };
-    job.change = lmp_allocate(&made->host, total * sizeof *job.change);
+    job.change = lmpi_allocate(&made->host, total * sizeof *job.change);
     if (job.change) {
         for (size_t i = 0; i < total; i++)
             job.change[i] = INFINITY;
         result = refine(&job, own.rings_max);
-        lmp_release(&made->host, job.change);
+        lmpi_release(&made->host, job.change);
     } else
         result = LMP_ERROR_MEMORY;
     if (result != LMP_OK) {
@@ -253,31 +254,32 @@ lmp_result lmp_brdf_project(const lmp_host *host, int bands, int rings, const lm
         return LMP_ERROR_ARGUMENT;
     const double x = (double)wo.x, y = (double)wo.y, z = (double)wo.z;
     const double length = sqrt(x * x + y * y + z * z);
-    const lmp_host resolved = lmp_host_resolve(host);
-    const size_t half = LMP_SH_HALF_COUNT(bands);
+    const lmp_host resolved = lmpi_host_resolve(host);
+    const size_t half_count = LMP_SH_HALF_COUNT(bands);
     brdf_quadrature quadrature;
-    const lmp_result result = lmp_brdf_quadrature_create(&resolved, bands, rings, &quadrature);
+    const lmp_result result = lmpi_brdf_quadrature_create(&resolved, bands, rings, &quadrature);
     if (result != LMP_OK)
         return result;
-    double *parts = lmp_allocate(&resolved, 6 * half * sizeof *parts);
+    double *parts = lmpi_allocate(&resolved, 6 * half_count * sizeof *parts);
     if (parts) {
         const brdf_projection projection = {
             .brdf = brdf,
             .view = { x / length, y / length, z / length },
             .rotation = { 1, 0 },
         };
-        lmp_brdf_project_view(&projection, &quadrature, parts, parts + 3 * half);
+        lmpi_brdf_project_view(&projection, &quadrature, parts, parts + 3 * half_count);
         const lmp_brdf_table_info info = { .bands = bands, .count = LMP_SH_COUNT(bands) };
-        store_view(&info, parts, parts + 3 * half, rgb);
-        lmp_release(&resolved, parts);
+        store_view(&info, parts, parts + 3 * half_count, rgb);
+        lmpi_release(&resolved, parts);
     }
-    lmp_brdf_quadrature_destroy(&resolved, &quadrature);
+    lmpi_brdf_quadrature_destroy(&resolved, &quadrature);
     return parts ? LMP_OK : LMP_ERROR_MEMORY;
 }
 
 /* --- reading ---------------------------------------------------------------------------------- */
 
-/* Four neighbors and their weights (Catmull-Rom), t in 0 … 1 from the second to the third. */
+/* Computes the weights of four neighbors (Catmull-Rom), with t in 0 … 1 from the second to the
+ * third. */
 static void cubic_weights(float t, float weights[4]) {
     const float t2 = t * t, t3 = t2 * t;
     weights[0] = (-t3 + 2 * t2 - t) / 2;
@@ -286,8 +288,8 @@ static void cubic_weights(float t, float weights[4]) {
     weights[3] = (t3 - t2) / 2;
 }
 
-/* Which coefficients of a view are read: bands low … high-1, `count` of each channel from `first`
- * on. */
+/* The coefficients of a view that are read: bands low … high-1, `count` of each channel from
+ * `first` on. */
 typedef struct band_part {
     int low, high;
     size_t first, count;
@@ -317,8 +319,8 @@ static void add_row(const lmp_brdf_table *table, band_part part, int azimuth, in
     }
 }
 
-/* One azimuth's part. Past the pole the view goes on at the opposite azimuth, in a frame rotated by
- * pi; past the last view the table is continued linearly. */
+/* Adds one azimuth's part. Past the pole the views go on at the opposite azimuth, in a frame
+ * rotated by pi; past the last view the table is continued linearly. */
 static void add_azimuth(const lmp_brdf_table *table, band_part part, float theta, int azimuth,
                         float weight, float *rgb) {
     const lmp_brdf_table_info *info = &table->info;
@@ -344,8 +346,8 @@ static void add_azimuth(const lmp_brdf_table *table, band_part part, float theta
     }
 }
 
-size_t lmp_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, float phi_o, int low,
-                            int high, float *rgb) {
+size_t lmpi_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, float phi_o, int low,
+                             int high, float *rgb) {
     const lmp_brdf_table_info *info = &table->info;
     const float theta = acosf(fminf(fmaxf(cos_theta_o, 0), 1));
     const band_part part = part_of(info, low, high);
@@ -370,12 +372,13 @@ size_t lmp_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, floa
     return part.count;
 }
 
-void lmp_brdf_table_view(const lmp_brdf_table *table, float cos_theta_o, float phi_o, float *rgb) {
-    lmp_brdf_table_bands(table, cos_theta_o, phi_o, 0, table->info.bands, rgb);
+void lmp_brdf_table_interpolate(const lmp_brdf_table *table, float cos_theta_o, float phi_o,
+                                float *rgb) {
+    lmpi_brdf_table_bands(table, cos_theta_o, phi_o, 0, table->info.bands, rgb);
 }
 
-void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth, lmp_rgb *whole_rgb,
-                           lmp_rgb *series) {
+void lmp_brdf_table_find_albedo(const lmp_brdf_table *table, int view, int azimuth,
+                                lmp_rgb *whole_rgb, lmp_rgb *series) {
     const lmp_brdf_table_info *info = &table->info;
     const float *row = table->coefficients +
                        ((size_t)azimuth * (size_t)info->views + (size_t)view) * 3 * info->count;
@@ -383,8 +386,8 @@ void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth, l
     for (int channel = 0; channel < 3; channel++, row += info->count) {
         whole[channel] = sqrt(4 * BRDF_PI) * (double)row[0];
         upper[channel] = sqrt(BRDF_PI) * (double)row[0];
-        /* the hemisphere's coefficients: pi R_l(0) Y_l0 of odd l, R_l(0) = -R_(l-2)(0) (l-2)/(l+1)
-         */
+        /* the hemisphere's coefficients are pi R_l(0) Y_l0 of odd l, R_l(0) = -R_(l-2)(0)
+         * (l-2)/(l+1) */
         double r = 1;
         for (int l = 1; l < info->bands; l += 2) {
             if (l > 1)

@@ -14,12 +14,14 @@ struct lmp_brdf_table {
     float *coefficients; /* [azimuth][view][channel][count] */
 };
 
-/* A table of the shape in info (bands, views, azimuths, mirrored); sets what follows from it. */
-lmp_result lmp_brdf_table_new(const lmp_host *host, const lmp_brdf_table_info *info,
-                              lmp_brdf_table **table);
+/* Allocates a table of the shape in info (bands, views, azimuths, mirrored), and sets the members
+ * that follow from it. */
+lmp_result lmpi_brdf_table_new(const lmp_host *host, const lmp_brdf_table_info *info,
+                               lmp_brdf_table **table);
 
-/* lmp_brdf_table_view of bands low … high-1: returns how many coefficients a channel has there. */
-size_t lmp_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, float phi_o, int low,
-                            int high, float *rgb);
+/* Does lmp_brdf_table_interpolate for bands low … high-1; returns how many coefficients a channel
+ * has there. */
+size_t lmpi_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, float phi_o, int low,
+                             int high, float *rgb);
 
 #endif

@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/field/field.h"
 
+#include "src/field/near.h"
+#include "src/field/nodes.h"
+#include "src/kernels/arrays.h"
+
 #include <string.h>
 
 /* --- error and reach -------------------------------------------------------------------------- */
 
 /* error = max((joint / (reach + a))³, (scale / (reach + b))⁴): the third derivative of the fade
- * jumps where the fade ends, and the coefficients of many bands grow fast near a light. Bounds of
- * the largest errors that a search finds for reaches of 1.2 to 64 cells, on grids of one to four
- * levels (tests/unit/field_error.c): 5 % above them at least, a third at most from 2 cells
- * on. */
+ * jumps where the fade ends, and the coefficients of many bands grow fast near a light. The
+ * constants bound the largest errors that a search finds for reaches of 1.2 to 64 cells, on grids
+ * of one to four levels (tests/unit/field_error.c): they lie at least 5 % above them, and from 2
+ * cells on at most a third. */
 #define JOINT      1.13f
 #define JOINT_MORE 0.25f
 static const struct {
@@ -23,7 +27,7 @@ enum { BANDS_DEFAULT = 5, NODES_DEFAULT = 16, LIGHTS_DEFAULT = 1024 };
 #define REACH_MIN 1.0f
 #define REACH_MAX 64.0f
 
-/* By Newton's steps, for every machine's bits. */
+/* Computes the cube root by Newton's steps, which give the same bits on every machine. */
 static float cube_root(float x) {
     float root = 1;
     for (int i = 0; i < 30; i++)
@@ -61,7 +65,7 @@ static bool is_edge(float edge) {
     return edge >= 1e-12f && edge <= 1e12f;
 }
 
-bool lmp_field_resolve(lmp_field_desc *desc) {
+bool lmpi_field_resolve(lmp_field_desc *desc) {
     uint64_t nodes = 1;
     if (desc->bands == 0)
         desc->bands = BANDS_DEFAULT;
@@ -85,18 +89,18 @@ bool lmp_field_resolve(lmp_field_desc *desc) {
 
 /* --- memory ----------------------------------------------------------------------------------- */
 
-enum { LINE = 64 }; /* bytes of the cache */
+enum { LINE = 64 }; /* bytes of a cache line */
 
-/* Pieces of one allocation, a multiple of LINE bytes each. */
+/* Takes a piece of one allocation, rounded up to a multiple of LINE bytes. */
 static void *take(unsigned char *memory, size_t *used, size_t size) {
     const size_t at = *used;
     *used += (size + LINE - 1) / LINE * LINE;
     return memory ? memory + at : NULL;
 }
 
-/* Entries that lights of no size need, if their reach is not most of the grid; where points are
- * shaded not more than make lists of 256 lights a block, beyond which a finer grid is what helps.
- */
+/* Returns the list entries that lights of no size need, if their reach is less than most of the
+ * grid. The finest level, which points read, gets no more than make lists of 256 lights per block:
+ * beyond that a finer grid is what helps. */
 static size_t entry_count(const lmp_field *field, bool finest) {
     const lmp_field_desc *desc = &field->info.desc;
     const float edge[3] = { desc->cell.x, desc->cell.y, desc->cell.z };
@@ -105,15 +109,15 @@ static size_t entry_count(const lmp_field *field, bool finest) {
         const float blocks = 2 * field->info.reach / (FIELD_BLOCK * edge[a]) + 2;
         around *= blocks < (float)field->blocks[a] ? (size_t)blocks : field->blocks[a];
     }
-    const size_t lights = (size_t)desc->light_max;
+    const size_t lights = desc->light_max;
     const size_t most = 256 * field->block_count, all = lights * around;
     return (all < most || !finest ? all : most) / FIELD_ENTRY + field->block_count +
            2 * (lights / FIELD_ENTRY + 1);
 }
 
-/* What a level of its own needs. */
+/* Takes the memory that belongs to one level. */
 static size_t divide(lmp_field *field, bool finest, unsigned char *memory, size_t *used) {
-    const size_t lights = (size_t)field->info.desc.light_max;
+    const size_t lights = field->info.desc.light_max;
     const size_t brick = FIELD_BRICK * field->info.node_bytes;
     field->nodes = take(memory, used, field->brick_count * brick);
     field->changes = finest ? NULL : take(memory, used, field->brick_count * brick);
@@ -124,15 +128,15 @@ static size_t divide(lmp_field *field, bool finest, unsigned char *memory, size_
     return *used;
 }
 
-/* A level of the grid that desc says. */
+/* Plans a level of the grid that desc describes. */
 static lmp_field plan_level(const lmp_host *host, const lmp_field_desc *desc, bool finest) {
     static const uint32_t brick[3] = { 4, 2, 2 };
     const float edge = fmaxf(desc->cell.x, fmaxf(desc->cell.y, desc->cell.z));
-    lmp_field plan = { .host = lmp_host_resolve(host), .info = { .desc = *desc } };
+    lmp_field plan = { .host = lmpi_host_resolve(host), .info = { .desc = *desc } };
     plan.info.reach = desc->reach * edge;
     plan.values = 3 * LMP_SH_COUNT(desc->bands);
     plan.stride =
-        (plan.values + LMP_KERNEL_LANES_MAX - 1) / LMP_KERNEL_LANES_MAX * LMP_KERNEL_LANES_MAX;
+        (plan.values + LMPI_KERNEL_LANES_MAX - 1) / LMPI_KERNEL_LANES_MAX * LMPI_KERNEL_LANES_MAX;
     plan.info.node_bytes = 4 * plan.stride * sizeof(float);
     plan.per_cell[0] = 1 / desc->cell.x;
     plan.per_cell[1] = 1 / desc->cell.y;
@@ -150,11 +154,11 @@ static lmp_field plan_level(const lmp_host *host, const lmp_field_desc *desc, bo
     return plan;
 }
 
-/* Of a coarser field, in parts of the finest one's: so its own errors add little to the finest's.
- */
+/* The reach of a coarser field, relative to the finest one's: its own errors then add little to the
+ * finest field's. */
 #define WIDER 1.15f
 
-/* The grid of twice the cells, if it pays. It is as large as what all bricks lie in. */
+/* Makes the grid of twice the cells, large enough to cover all bricks; returns whether it pays. */
 static bool is_coarser(const lmp_field_desc *fine, lmp_field_desc *coarse) {
     uint64_t nodes = 1;
     *coarse = *fine;
@@ -167,7 +171,7 @@ static bool is_coarser(const lmp_field_desc *fine, lmp_field_desc *coarse) {
     return nodes >= FIELD_COARSE;
 }
 
-/* Levels of the largest grid. */
+/* The most levels that a grid has. */
 enum { LEVELS = 8 };
 
 static int plan_levels(const lmp_host *host, const lmp_field_desc *desc, lmp_field *levels) {
@@ -182,14 +186,14 @@ static int plan_levels(const lmp_host *host, const lmp_field_desc *desc, lmp_fie
     return count;
 }
 
-/* Lays the levels out in memory, or only counts its bytes where that is NULL. The lights are one
- * list, and one room for bricks is enough, for levels take turns. */
+/* Lays the levels out in memory, or only counts the bytes where memory is NULL. Levels share the
+ * list of lights, and the scratch of bricks, because they take turns. */
 static size_t lay_out(lmp_field *levels, int count, unsigned char *memory) {
-    const size_t lights = (size_t)levels->info.desc.light_max;
+    const size_t lights = levels->info.desc.light_max;
     size_t used = (size_t)count * sizeof *levels;
     lmp_field *const at = (lmp_field *)(void *)memory;
     used += LINE - ((uintptr_t)memory + used) % LINE;
-    levels->scratch = take(memory, &used, levels->task_count * lmp_field_scratch(levels));
+    levels->scratch = take(memory, &used, levels->task_count * lmpi_field_scratch(levels));
     levels->lights = take(memory, &used, lights * sizeof *levels->lights);
     levels->spheres = take(memory, &used, lights * sizeof *levels->spheres);
     for (int i = 0; i < count; i++) {
@@ -204,32 +208,33 @@ static size_t lay_out(lmp_field *levels, int count, unsigned char *memory) {
     return used;
 }
 
-lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, lmp_field **field) {
+lmp_result lmpi_field_allocate(const lmp_host *host, const lmp_field_desc *desc,
+                               lmp_field **field) {
     lmp_field levels[LEVELS];
     const int count = plan_levels(host, desc, levels);
     levels->info.bytes = lay_out(levels, count, NULL) + LINE;
-    unsigned char *memory = lmp_allocate(&levels->host, levels->info.bytes);
+    unsigned char *memory = lmpi_allocate(&levels->host, levels->info.bytes);
     *field = (lmp_field *)(void *)memory;
     if (!memory)
         return LMP_ERROR_MEMORY;
     lay_out(levels, count, memory);
     for (lmp_field *level = *field; level; level = level->coarse)
         memset(level->nodes, 0, level->brick_count * FIELD_BRICK * level->info.node_bytes);
-    lmp_field_unlist_all(*field);
-    lmp_field_set_states(*field, FIELD_READY);
+    lmpi_field_unlist_all(*field);
+    lmpi_field_set_states(*field, FIELD_READY);
     return LMP_OK;
 }
 
 lmp_result lmp_field_create(const lmp_host *host, const lmp_field_desc *desc, lmp_field **field) {
     lmp_field_desc resolved = desc ? *desc : (lmp_field_desc) { 0 };
     *field = NULL;
-    if (!lmp_field_resolve(&resolved))
+    if (!lmpi_field_resolve(&resolved))
         return LMP_ERROR_ARGUMENT;
-    return lmp_field_allocate(host, &resolved, field);
+    return lmpi_field_allocate(host, &resolved, field);
 }
 
 void lmp_field_destroy(lmp_field *field) {
-    lmp_release_object(field);
+    lmpi_release_object(field);
 }
 
 lmp_field_info lmp_field_describe(const lmp_field *field) {

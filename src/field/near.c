@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* near.c - which lights are near which cells: a list a block of cells, in a pool of entries that
- * was allocated with the field. What does not fit is near everywhere. */
-#include "src/field/field.h"
+/* near.c - which lights are near which cells: a list per block of cells, in a pool of entries that
+ * was allocated with the field. A light whose lists do not fit is near everywhere. */
+#include "src/field/near.h"
 #include "src/light/packed.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@
 
 /* --- lists ------------------------------------------------------------------------------------ */
 
-/* A ball around a light, from the grid's origin, the edges of blocks, and those of the box around
- * it. */
+/* A ball around a light, in coordinates from the grid's origin, the edges of a block, and the range
+ * of blocks that its bounding box covers. */
 typedef struct near_ball {
     float center[3], radius, edge[3];
     uint32_t first[3], end[3];
@@ -29,7 +29,7 @@ static float block_edge(const lmp_field *field, int axis) {
 }
 
 static near_ball ball_of(const lmp_field *field, const field_sphere *sphere) {
-    near_ball ball = { .radius = lmp_field_around(sphere, field->info.reach) };
+    near_ball ball = { .radius = lmpi_field_around(sphere, field->info.reach) };
     for (int a = 0; a < 3; a++) {
         const float edge = block_edge(field, a);
         ball.edge[a] = edge;
@@ -40,14 +40,14 @@ static near_ball ball_of(const lmp_field *field, const field_sphere *sphere) {
     return ball;
 }
 
-/* How far a block lies from the center along an axis, squared. */
+/* Returns the squared distance of a block from the center along an axis. */
 static float gap2(const near_ball *ball, int axis, uint32_t block) {
     const float low = ball->edge[axis] * (float)block;
-    const float gap = lmp_field_gap(low, ball->center[axis], low + ball->edge[axis]);
+    const float gap = lmpi_field_gap(low, ball->center[axis], low + ball->edge[axis]);
     return gap * gap;
 }
 
-/* Whether the ball reaches a block that lies so far from its center along the last two axes. */
+/* Whether the ball reaches a block whose squared distances along the last two axes are others2. */
 static bool reaches_along(const near_ball *ball, uint32_t block, const float others2[2]) {
     return gap2(ball, 0, block) + others2[0] + others2[1] <= ball->radius * ball->radius;
 }
@@ -62,8 +62,8 @@ static bool reaches(const near_ball *ball, const uint32_t block[3]) {
 
 typedef void list_action(lmp_field *field, uint32_t light, size_t list);
 
-/* Does it to every list of a block that a light's ball reaches and another, if there is one, does
- * not; returns how many those are. */
+/* Applies an action to the list of every block that a light's ball reaches and `other`, if it is
+ * not NULL, does not; returns how many blocks those are. */
 static size_t each_list(lmp_field *field, uint32_t light, const near_ball *ball,
                         const near_ball *other, list_action *action) {
     uint32_t at[3];
@@ -105,7 +105,7 @@ static void put(lmp_field *field, uint32_t light, size_t list) {
     entry->lights[entry->count++] = light;
 }
 
-/* The list's position of a light. */
+/* Finds a light in a list. */
 static uint32_t *position(const lmp_field *field, uint32_t light, size_t list) {
     for (uint32_t at = field->lists[list];; at = field->entries[at].next) {
         field_entry *entry = &field->entries[at];
@@ -115,7 +115,7 @@ static uint32_t *position(const lmp_field *field, uint32_t light, size_t list) {
     }
 }
 
-/* The first entry's last light takes its place. */
+/* Removes a light from a list: the last light of the first entry takes its position. */
 static void take(lmp_field *field, uint32_t light, size_t list) {
     const uint32_t first = field->lists[list];
     field_entry *entry = &field->entries[first];
@@ -129,10 +129,10 @@ static void take(lmp_field *field, uint32_t light, size_t list) {
     field->free_count++;
 }
 
-/* Whether the lists of a ball's blocks find room, beside as many entries as all lights need that
- * might be near everywhere. They are counted only where the box around the ball is too much. */
+/* Whether the lists of a ball's blocks have room, beside the entries reserved for lights that may
+ * become near everywhere. Blocks are counted only where the ball's bounding box has too many. */
 static bool is_room(lmp_field *field, uint32_t light, const near_ball *ball) {
-    const size_t kept = (size_t)field->info.desc.light_max / FIELD_ENTRY + 1;
+    const size_t kept = field->info.desc.light_max / FIELD_ENTRY + 1;
     size_t box = 1;
     for (int a = 0; a < 3; a++)
         box *= ball->end[a] - ball->first[a];
@@ -143,14 +143,14 @@ static bool is_room(lmp_field *field, uint32_t light, const near_ball *ball) {
 static void list_light(lmp_field *field, uint32_t light) {
     const near_ball ball = ball_of(field, &field->spheres[light]);
     field->everywhere[light] =
-        !(lmp_light_fades(&field->lights[light]) && is_room(field, light, &ball));
+        !(lmpi_light_fades(&field->lights[light]) && is_room(field, light, &ball));
     if (field->everywhere[light])
         put(field, light, field->block_count);
     else
         each_list(field, light, &ball, NULL, put);
 }
 
-/* From the lists where it is as this sphere. */
+/* Removes a light from the lists that it joined when it was this sphere. */
 static void unlist_light(lmp_field *field, uint32_t light, const field_sphere *sphere) {
     const near_ball ball = ball_of(field, sphere);
     if (field->everywhere[light])
@@ -159,10 +159,11 @@ static void unlist_light(lmp_field *field, uint32_t light, const field_sphere *s
         each_list(field, light, &ball, NULL, take);
 }
 
-/* A light that moves stays in most lists, which are long: those are not touched. */
+/* Lists a light that moved. It stays in most of its lists, which are long: those are not touched.
+ */
 static void relist_light(lmp_field *field, uint32_t light, const field_sphere *was) {
     const near_ball before = ball_of(field, was), after = ball_of(field, &field->spheres[light]);
-    if (field->everywhere[light] || !lmp_light_fades(&field->lights[light]) ||
+    if (field->everywhere[light] || !lmpi_light_fades(&field->lights[light]) ||
         !is_room(field, light, &after)) {
         unlist_light(field, light, was);
         list_light(field, light);
@@ -172,7 +173,8 @@ static void relist_light(lmp_field *field, uint32_t light, const field_sphere *w
     each_list(field, light, &after, &before, put);
 }
 
-/* Entries are not chained: most are never used, and far more than caches hold. */
+/* Empties all lists. Entries are not chained, because most are never used, and they are far more
+ * than caches hold. */
 static void unlist_all(lmp_field *field) {
     memset(field->lists, 0xff, (field->block_count + 1) * sizeof *field->lists);
     field->free = FIELD_NONE;
@@ -180,41 +182,41 @@ static void unlist_all(lmp_field *field) {
     field->free_count = (uint32_t)field->entry_count;
 }
 
-void lmp_field_list(lmp_field *field, uint32_t light) {
+void lmpi_field_list(lmp_field *field, uint32_t light) {
     for (lmp_field *level = field; level; level = level->coarse)
         list_light(level, light);
 }
 
-void lmp_field_unlist(lmp_field *field, uint32_t light) {
+void lmpi_field_unlist(lmp_field *field, uint32_t light) {
     for (lmp_field *level = field; level; level = level->coarse)
         unlist_light(level, light, &field->spheres[light]);
 }
 
-void lmp_field_relist(lmp_field *field, uint32_t light, const field_sphere *was) {
+void lmpi_field_relist(lmp_field *field, uint32_t light, const field_sphere *was) {
     for (lmp_field *level = field; level; level = level->coarse)
         relist_light(level, light, was);
 }
 
-void lmp_field_unlist_all(lmp_field *field) {
+void lmpi_field_unlist_all(lmp_field *field) {
     for (lmp_field *level = field; level; level = level->coarse)
         unlist_all(level);
 }
 
 /* --- points ----------------------------------------------------------------------------------- */
 
-float lmp_field_lacks(const lmp_field *field, uint32_t light, lmp_vec3 point) {
-    if (!lmp_light_fades(&field->lights[light]))
+float lmpi_field_residual(const lmp_field *field, uint32_t light, lmp_vec3 point) {
+    if (!lmpi_light_fades(&field->lights[light]))
         return 1;
     const field_sphere *s = &field->spheres[light];
     const float x = s->center.x - point.x, y = s->center.y - point.y, z = s->center.z - point.z;
-    const float away = (sqrtf(x * x + y * y + z * z) - lmp_field_around(s, 0)) / field->info.reach;
+    const float away = (sqrtf(x * x + y * y + z * z) - lmpi_field_around(s, 0)) / field->info.reach;
     const float t = fminf(fmaxf(away, 0), 1), v = 1 - t * t;
     return v * v * v * (1 + 3 * t * t);
 }
 
 /* --- sets ------------------------------------------------------------------------------------- */
 
-void lmp_field_set_clear(const lmp_field *field, field_set *set) {
+void lmpi_field_set_clear(const lmp_field *field, field_set *set) {
     set->words = (field->info.light_count + 63) / 64;
     memset(set->bits, 0, set->words * sizeof *set->bits);
 }
@@ -227,17 +229,17 @@ static void add_list(const lmp_field *field, size_t list, field_set *set) {
     }
 }
 
-void lmp_field_set_add(const lmp_field *field, uint32_t block, field_set *set) {
+void lmpi_field_set_add(const lmp_field *field, uint32_t block, field_set *set) {
     add_list(field, block, set);
     add_list(field, field->block_count, set);
 }
 
-void lmp_field_set_add_all(const lmp_field *field, field_set *set) {
+void lmpi_field_set_add_all(const lmp_field *field, field_set *set) {
     for (size_t i = 0; i < field->info.light_count; i++)
         set->bits[i / 64] |= (uint64_t)1 << i % 64;
 }
 
-uint32_t lmp_field_set_next(const field_set *set, uint32_t light) {
+uint32_t lmpi_field_set_next(const field_set *set, uint32_t light) {
     for (size_t word = light / 64; word < set->words; word++) {
         const uint64_t bits =
             word == light / 64 ? set->bits[word] >> light % 64 << light % 64 : set->bits[word];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* nodes.c - what a field's nodes hold, computed by bricks: from all lights, or from what a coarser
- * field has there and the lights near them. */
-#include "src/field/field.h"
-#include "src/light/cap.h"
+/* nodes.c - computes the nodes of a field by bricks, from all lights, or from a coarser field and
+ * the lights near the nodes. */
+#include "src/field/nodes.h"
+#include "src/kernels/dispatch.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,14 +11,14 @@ static size_t brick_floats(const lmp_field *field) {
     return FIELD_BRICK * 4 * field->stride;
 }
 
-/* A task's own. */
+/* Returns a task's own scratch. */
 static float *scratch_of(const lmp_field *field, size_t task) {
-    return (float *)(void *)((char *)field->scratch + task * lmp_field_scratch(field));
+    return (float *)(void *)((char *)field->scratch + task * lmpi_field_scratch(field));
 }
 
 /* --- states ----------------------------------------------------------------------------------- */
 
-void lmp_field_set_states(lmp_field *field, unsigned char state) {
+void lmpi_field_set_states(lmp_field *field, unsigned char state) {
     for (lmp_field *level = field; level; level = level->coarse)
         for (size_t i = 0; i < level->brick_count; i++)
             atomic_store_explicit(&level->states[i], state, memory_order_relaxed);
@@ -33,20 +33,20 @@ static void want(lmp_field *field, size_t brick) {
         atomic_store_explicit(&field->states[brick], FIELD_WANTED, memory_order_relaxed);
 }
 
-/* Of a cell's eight corners. */
+/* Marks the bricks of a cell's eight corners as wanted. */
 static void want_corners(lmp_field *field, const uint32_t cell[3]) {
     for (uint32_t k = 0; k < 8; k++)
-        want(field, lmp_field_node(field, cell[0] + k % 2, cell[1] + k / 2 % 2, cell[2] + k / 4) /
+        want(field, lmpi_field_node(field, cell[0] + k % 2, cell[1] + k / 2 % 2, cell[2] + k / 4) /
                         FIELD_BRICK);
 }
 
-void lmp_field_want(lmp_field *field, lmp_vec3_array points, size_t count) {
+void lmp_field_want_n(lmp_field *field, lmp_vec3_array points, size_t count) {
     uint32_t last[3] = { UINT32_MAX, 0, 0 };
-    assert(lmp_are_finite(points, count));
+    assert(lmpi_are_finite(points, count));
     for (size_t i = 0; i < count; i++) {
         field_place place;
-        if (!lmp_field_find(field, lmp_vec3_element(&points, i), &place) ||
-            lmp_field_same_cell(place.cell, last))
+        if (!lmpi_field_find(field, lmpi_vec3_element(&points, i), &place) ||
+            lmpi_field_same_cell(place.cell, last))
             continue;
         want_corners(field, place.cell);
         memcpy(last, place.cell, sizeof last);
@@ -55,14 +55,14 @@ void lmp_field_want(lmp_field *field, lmp_vec3_array points, size_t count) {
 
 /* --- bricks ----------------------------------------------------------------------------------- */
 
-/* The first node's numbers along the axes. */
+/* Finds the indices of a brick's first node along the axes. */
 static void find_brick(const lmp_field *field, size_t brick, uint32_t first[3]) {
     first[0] = 4 * (uint32_t)(brick % field->bricks[0]);
     first[1] = 2 * (uint32_t)(brick / field->bricks[0] % field->bricks[1]);
     first[2] = 2 * (uint32_t)(brick / field->bricks[0] / field->bricks[1]);
 }
 
-/* Node i of a brick. */
+/* Finds the indices of node i of a brick. */
 static void find_node(const uint32_t first[3], uint32_t i, uint32_t node[3]) {
     node[0] = first[0] + i % 4;
     node[1] = first[1] + i / 4 % 2;
@@ -84,7 +84,7 @@ static void set_points(const lmp_field *field, const uint32_t first[3], brick_po
     }
 }
 
-/* Of the nodes that a brick's are interpolated from: they lie in two cells. */
+/* Marks the coarser nodes as wanted that a brick is interpolated from: they lie in two cells. */
 static void want_coarse(const lmp_field *field, size_t brick) {
     uint32_t node[3];
     find_brick(field, brick, node);
@@ -96,27 +96,27 @@ static void want_coarse(const lmp_field *field, size_t brick) {
 
 /* --- lights ----------------------------------------------------------------------------------- */
 
-/* The kernels' lights, and how the field has them: without what the coarser one has. */
+/* Adds lights to a brick's nodes, as the field holds them: without what the coarser field holds. */
 static void add_lights(const lmp_field *field, const brick_points *points,
                        const field_sphere *spheres, size_t count, float *scratch, float *nodes) {
     const size_t values = field->values;
     const lmp_vec3 *center = &spheres->center;
     const lmp_rgb *radiance = &spheres->radiance;
-    const lmp_kernel_lights lights = {
+    const lmpi_kernel_lights lights = {
         .center = { &center->x, &center->y, &center->z, sizeof *spheres },
         .radius = { &spheres->radius, sizeof *spheres },
         .radiance = { &radiance->r, &radiance->g, &radiance->b, sizeof *spheres },
         .count = count,
     };
-    const lmp_kernel_vec3 at = { points->at[0], points->at[1], points->at[2] };
-    const lmp_kernel_fade fade = { 1 / field->info.reach,
-                                   field->coarse ? 1 / field->coarse->info.reach : 0 };
-    const lmp_kernel_out out = { scratch, 4 * values, 0 };
-    const lmp_kernel_out slopes = { scratch + values, 4 * values, 0 };
+    const lmpi_kernel_vec3 at = { points->at[0], points->at[1], points->at[2] };
+    const lmpi_kernel_fade fade = { 1 / field->info.reach,
+                                    field->coarse ? 1 / field->coarse->info.reach : 0 };
+    const lmpi_kernel_out out = { scratch, 4 * values, 0 };
+    const lmpi_kernel_out slopes = { scratch + values, 4 * values, 0 };
     if (count == 0)
         return;
-    lmp_kernels_get()->fading_gradient(NULL, field->info.desc.bands, &lights, &at, LMP_COS_MIN,
-                                       fade, FIELD_BRICK, &out, &slopes);
+    lmpi_kernels_get()->light.fading_gradient(NULL, field->info.desc.bands, &lights, &at,
+                                              LMP_COS_MIN, fade, FIELD_BRICK, &out, &slopes);
     for (size_t row = 0; row < 4 * FIELD_BRICK; row++)
         for (size_t v = 0; v < values; v++)
             nodes[row * field->stride + v] += scratch[row * values + v];
@@ -129,13 +129,13 @@ static field_box box_of(const brick_points *points) {
                          { at[0][last], at[1][last], at[2][last] } };
 }
 
-/* Whether the coarser field may lack something of the sphere at a node of the brick. */
+/* Whether the coarser field may lack part of the sphere at a node of the brick. */
 static bool is_near(const lmp_field *field, const field_box *box, const field_sphere *sphere) {
-    const float reach = lmp_field_around(sphere, field->coarse->info.reach) * 1.0001f;
-    return lmp_field_distance2(box, sphere->center) < reach * reach;
+    const float reach = lmpi_field_around(sphere, field->coarse->info.reach) * 1.0001f;
+    return lmpi_field_distance2(box, sphere->center) < reach * reach;
 }
 
-/* Those near a brick, a pass at a time. */
+/* The lights near a brick, which are added a pass at a time. */
 typedef struct brick_lights {
     const lmp_field *field;
     uint32_t first[3]; /* the brick's first node */
@@ -152,7 +152,7 @@ static void flush(brick_lights *lights) {
     lights->count = 0;
 }
 
-/* Without any light yet, for the sums to go to `nodes`. */
+/* Begins a brick without any light; sums go to `nodes`. */
 static void begin(const lmp_field *field, size_t brick, float *scratch, float *nodes,
                   brick_lights *lights) {
     lights->field = field;
@@ -165,7 +165,7 @@ static void begin(const lmp_field *field, size_t brick, float *scratch, float *n
     lights->box = box_of(&lights->points);
 }
 
-/* Near or far, where there is no coarser field. */
+/* Adds all lights, near or far, where there is no coarser field. */
 static void take_all(const brick_lights *lights, const field_sphere *spheres, size_t count) {
     add_lights(lights->field, &lights->points, spheres, count, lights->scratch, lights->nodes);
 }
@@ -188,22 +188,22 @@ static void take_list(brick_lights *lights, uint32_t list) {
     }
 }
 
-/* What a brick's nodes are interpolated from, the coarser field's or what those change by; and the
- * nodes that will be written after them. */
-static lmp_kernel_brick brick_of(const lmp_field *field, const uint32_t first[3], const float *from,
-                                 const float *next) {
+/* Describes what a brick's nodes are interpolated from, the coarser field's nodes or their changes,
+ * and the nodes that are written next, to be fetched. */
+static lmpi_kernel_brick brick_of(const lmp_field *field, const uint32_t first[3],
+                                  const float *from, const float *next) {
     const lmp_field *coarse = field->coarse;
-    lmp_kernel_brick brick = { .stride = field->stride,
-                               .cell = coarse->info.desc.cell,
-                               .next = next };
+    lmpi_kernel_brick brick = { .stride = field->stride,
+                                .cell = coarse->info.desc.cell,
+                                .next = next };
     for (uint32_t i = 0; i < 12; i++)
         brick.from[i] = from + 4 * field->stride *
-                                   lmp_field_node(coarse, first[0] / 2 + i % 3,
-                                                  first[1] / 2 + i / 3 % 2, first[2] / 2 + i / 6);
+                                   lmpi_field_node(coarse, first[0] / 2 + i % 3,
+                                                   first[1] / 2 + i / 3 % 2, first[2] / 2 + i / 6);
     return brick;
 }
 
-/* What all lights give a brick's nodes. */
+/* Computes what all lights give a brick's nodes. */
 static void compute(const lmp_field *field, size_t brick, float *scratch) {
     float *nodes = field->nodes + brick * brick_floats(field);
     brick_lights lights;
@@ -214,14 +214,14 @@ static void compute(const lmp_field *field, size_t brick, float *scratch) {
         return;
     }
     const uint32_t cell[3] = { lights.first[0] / 2, lights.first[1] / 2, lights.first[2] / 2 };
-    const lmp_kernel_brick from = brick_of(field, lights.first, field->coarse->nodes, nodes);
-    lmp_kernels_get()->refine(&from, nodes);
-    take_list(&lights, lmp_field_block(field->coarse, cell));
+    const lmpi_kernel_brick from = brick_of(field, lights.first, field->coarse->nodes, nodes);
+    lmpi_kernels_get()->field.refine(&from, nodes);
+    take_list(&lights, lmpi_field_block(field->coarse, cell));
     take_list(&lights, (uint32_t)field->coarse->block_count);
     flush(&lights);
 }
 
-/* Every task_count-th brick, each by way of the task's own scratch. */
+/* Computes every task_count-th brick, with the task's own scratch. */
 static lmp_result compute_task(size_t index, void *data) {
     lmp_field *field = data;
     float *scratch = scratch_of(field, index);
@@ -233,7 +233,8 @@ static lmp_result compute_task(size_t index, void *data) {
     return LMP_OK;
 }
 
-/* The coarser fields first: they have an eighth of the nodes, and rise to that part of `done`. */
+/* Computes the wanted bricks, those of coarser fields first: these have an eighth of the nodes, and
+ * take that part of `done`. */
 static lmp_result compute_wanted(const lmp_host *host, lmp_field *field, double done) {
     const double before = field->coarse ? done / 8 : 0;
     if (field->coarse) {
@@ -244,18 +245,18 @@ static lmp_result compute_wanted(const lmp_host *host, lmp_field *field, double 
         if (result != LMP_OK)
             return result;
     }
-    return lmp_host_run(host, before, done, field->task_count, compute_task, field);
+    return lmpi_host_run(host, before, done, field->task_count, compute_task, field);
 }
 
 lmp_result lmp_field_compute(const lmp_host *host, lmp_field *field) {
-    const lmp_host resolved = lmp_host_resolve(host);
+    const lmp_host resolved = lmpi_host_resolve(host);
     return compute_wanted(&resolved, field, 1);
 }
 
-void lmp_field_refresh(lmp_field *field, uint64_t turn) {
+void lmpi_field_refresh(lmp_field *field, uint64_t turn) {
     const size_t brick = (size_t)(turn % field->brick_count);
     if (field->coarse)
-        lmp_field_refresh(field->coarse, turn);
+        lmpi_field_refresh(field->coarse, turn);
     if (state_of(field, brick) == FIELD_READY)
         compute(field, brick, field->scratch);
 }
@@ -268,11 +269,11 @@ typedef struct field_change {
     size_t count;
 } field_change;
 
-/* What the change gives a brick, added to its nodes; or in place of what they changed by last. */
+/* Computes what a change gives a brick: added to its nodes, or in place of the last change. */
 static void take_change(const field_change *change, size_t brick, bool adds, float *scratch,
                         float *nodes) {
     const lmp_field *field = change->field;
-    const lmp_kernels *kernels = lmp_kernels_get();
+    const lmpi_kernels *kernels = lmpi_kernels_get();
     brick_lights lights;
     begin(field, brick, scratch, nodes, &lights);
     if (!field->coarse) {
@@ -282,14 +283,14 @@ static void take_change(const field_change *change, size_t brick, bool adds, flo
         return;
     }
     const float *next = brick + 1 < field->brick_count ? nodes + brick_floats(field) : nodes;
-    const lmp_kernel_brick from = brick_of(field, lights.first, field->coarse->changes, next);
-    (adds ? kernels->refine_add : kernels->refine)(&from, nodes);
+    const lmpi_kernel_brick from = brick_of(field, lights.first, field->coarse->changes, next);
+    (adds ? kernels->field.refine_add : kernels->field.refine)(&from, nodes);
     for (size_t i = 0; i < change->count; i++)
         take(&lights, &change->spheres[i]);
     flush(&lights);
 }
 
-/* A coarser field also keeps what its nodes change by. */
+/* Applies a change to a brick; a coarser field also keeps the change of its nodes. */
 static void compute_change(const field_change *change, size_t brick, float *scratch) {
     const lmp_field *field = change->field;
     const size_t size = brick_floats(field);
@@ -314,11 +315,11 @@ static void change_task(size_t index, void *data) {
             compute_change(change, brick, scratch);
 }
 
-void lmp_field_add_spheres(const lmp_host *host, lmp_field *field, const field_sphere *spheres,
-                           size_t count) {
-    const lmp_host resolved = lmp_host_resolve(host);
+void lmpi_field_add_spheres(const lmp_host *host, lmp_field *field, const field_sphere *spheres,
+                            size_t count) {
+    const lmp_host resolved = lmpi_host_resolve(host);
     field_change change = { field, spheres, count };
     if (field->coarse)
-        lmp_field_add_spheres(host, field->coarse, spheres, count);
+        lmpi_field_add_spheres(host, field->coarse, spheres, count);
     resolved.parallel(field->task_count, change_task, &change, resolved.user);
 }

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* sort.c - surfaces in the order of their lobes and cells: those that are shaded together then
- * read the same nodes, and the same lights are near them. */
-#include "src/field/field.h"
+/* sort.c - sorts surfaces by their lobes and cells: those shaded together then read the same nodes,
+ * and have the same lights near them. */
+#include "src/field/sort.h"
 
+#include <assert.h>
+#include <stdbool.h>
 #include <string.h>
 
-/* What is sorted is a key, then the surface's index in the low bits. */
+/* The words sorted hold a key, and the surface's index in the low bits. */
 enum { INDEX = 10, DIGIT = 8, DIGITS = 1 << DIGIT };
 static_assert(1 << INDEX == FIELD_SORTED && INDEX + 2 * DIGIT < 32, "keys have three digits");
 
-/* By one digit, stably; whether they differ in it: few blocks lie close together. */
+/* Sorts stably by one digit; returns false if all words share it, as often, because few blocks lie
+ * close together. */
 static bool sort_digit(const uint32_t *from, size_t count, int shift, uint32_t *to) {
     uint16_t start[DIGITS] = { 0 }, next = 0;
     for (size_t i = 0; i < count; i++)
@@ -26,8 +29,8 @@ static bool sort_digit(const uint32_t *from, size_t count, int shift, uint32_t *
     return true;
 }
 
-/* Neighbors have often one key: runs of them are sorted. */
-void lmp_field_sort(const uint32_t *keys, size_t count, uint16_t *order) {
+/* Sorts runs of equal keys, because neighbors often share one. */
+void lmpi_field_sort(const uint32_t *keys, size_t count, uint16_t *order) {
     uint32_t words[2][FIELD_SORTED];
     uint16_t from[FIELD_SORTED], end[FIELD_SORTED];
     size_t runs = 0, sorted = 0;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* texels.c - a field as shaders read one: nodes in the order of the grid, lists of near lights one
- * after another. */
-#include "src/field/field.h"
+/* texels.c - a field as shaders read it: nodes in the order of the grid, and the lists of near
+ * lights one after another. */
+#include "src/field/grid.h"
 
-void lmp_field_nodes(const lmp_field *field, size_t first, size_t count, float *texels) {
+void lmp_field_copy_nodes(const lmp_field *field, size_t first, size_t count, float *texels) {
     const int *n = field->info.desc.nodes;
     const size_t x = (size_t)n[0], y = (size_t)n[1], all = x * y * (size_t)n[2];
     const size_t stride = field->stride, values = field->values;
@@ -11,7 +11,7 @@ void lmp_field_nodes(const lmp_field *field, size_t first, size_t count, float *
     (void)all;
     for (size_t i = first; i < first + count; i++) {
         const uint32_t at =
-            lmp_field_node(field, (uint32_t)(i % x), (uint32_t)(i / x % y), (uint32_t)(i / x / y));
+            lmpi_field_node(field, (uint32_t)(i % x), (uint32_t)(i / x % y), (uint32_t)(i / x / y));
         const float *node = field->nodes + 4 * stride * at;
         for (size_t v = 0; v < values; v++, texels += 4) {
             texels[0] = node[v];
@@ -22,7 +22,8 @@ void lmp_field_nodes(const lmp_field *field, size_t first, size_t count, float *
     }
 }
 
-size_t lmp_field_lists(const lmp_field *field, size_t capacity, uint32_t *begin, uint32_t *lights) {
+size_t lmp_field_copy_lists(const lmp_field *field, size_t capacity, uint32_t *begin,
+                            uint32_t *lights) {
     size_t count = 0;
     for (size_t list = 0; list <= field->block_count; list++) {
         if (capacity > 0)
@@ -39,6 +40,6 @@ size_t lmp_field_lists(const lmp_field *field, size_t capacity, uint32_t *begin,
     return count;
 }
 
-const lmp_field *lmp_field_coarser(const lmp_field *field) {
+const lmp_field *lmp_field_coarser_level(const lmp_field *field) {
     return field->coarse;
 }

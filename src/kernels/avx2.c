@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define LMP_LANES   8
-#define LMP_KERNELS lmp_kernels_avx2
-#define LMP_SINGLE  lmp_single_avx2
-#include "src/kernels/build.h"
+#define LMPI_LANES   8
+#define LMPI_KERNELS lmpi_kernels_avx2
+#define LMPI_SINGLE  lmpi_single_avx2
+#include "src/kernels/build_tmpl.h"

@@ -1,24 +1,25 @@
-# One source, one build an instruction set (src/kernels/build.h). Not auto-vectorized: the kernels
-# say what is a vector, and the scalar build is the one to compare with.
+# Builds one source once per instruction set (src/kernels/build_tmpl.h). It is not auto-vectorized: the kernels state
+# what is a vector, and the scalar build is the one to compare with.
 set(lampion_kernel_options -fno-tree-vectorize -fno-tree-slp-vectorize)
 if(CMAKE_C_COMPILER_ID MATCHES Clang)
   set(lampion_kernel_options -fno-vectorize -fno-slp-vectorize)
 endif()
-# Arrays whose length the bands decide, no foreign bytes: guards would only cost. Those of memcpy hide from
-# clang that a copy is a register's load or store, and each register goes by way of the stack.
+# The bands determine the length of arrays, and no foreign bytes are read: stack guards would only cost. Guarded memcpy
+# hides from clang that a copy is a register's load or store, so that each register would go through the stack.
 list(APPEND lampion_kernel_options -fno-stack-protector -U_FORTIFY_SOURCE)
 if(LAMPION_FUZZ)
-  # No foreign bytes here, and unrolled kernels take the instrumenting compiler minutes.
+  # No foreign bytes are read here, and instrumenting unrolled kernels takes the compiler minutes.
   list(APPEND lampion_kernel_options -O0)
 endif()
 set(kernels ${PROJECT_SOURCE_DIR}/src/kernels)
-if(LAMPION_SANITIZE)
-  list(APPEND lampion_kernel_options -DLMP_KERNELS_SANITIZED)
+if(LAMPION_SANITIZE MATCHES address)
+  # The preset ubsan judges the kernels' behavior: both at once took gcc minutes for each instruction set.
+  list(APPEND lampion_kernel_options -fno-sanitize=undefined)
 endif()
 set_source_files_properties(${kernels}/scalar.c ${kernels}/single_scalar.c PROPERTIES COMPILE_OPTIONS "${lampion_kernel_options}")
 
-# The compiler is asked what it compiles for: CMAKE_SYSTEM_PROCESSOR is what a toolchain file or a cross build says
-# it is, and with -m32 or -arch not even that.
+# Asks the compiler for its target, because CMAKE_SYSTEM_PROCESSOR is what a toolchain file or a cross build claims, and
+# with -m32 or -arch not even that.
 include(CheckCSourceCompiles)
 foreach(target x86_64 aarch64 wasm32)
   check_c_source_compiles("
@@ -30,7 +31,7 @@ endforeach()
 
 set(lampion_kernel_builds "")
 if(LAMPION_SIMD AND (LAMPION_FOR_x86_64 OR LAMPION_FOR_aarch64 OR LAMPION_FOR_wasm32))
-  set(lampion_kernel_builds LMP_KERNELS_VECTOR)
+  set(lampion_kernel_builds LMPI_KERNELS_VECTOR)
   set(options ${lampion_kernel_options})
   if(LAMPION_FOR_wasm32)
     list(APPEND options -msimd128)
@@ -40,7 +41,7 @@ else()
   list(REMOVE_ITEM lampion_sources ${kernels}/vector.c ${kernels}/single_vector.c)
 endif()
 if(LAMPION_SIMD AND LAMPION_FOR_x86_64)
-  list(APPEND lampion_kernel_builds LMP_KERNELS_X86)
+  list(APPEND lampion_kernel_builds LMPI_KERNELS_X86)
   set_source_files_properties(${kernels}/avx2.c ${kernels}/single_avx2.c PROPERTIES
     COMPILE_OPTIONS "${lampion_kernel_options};-mavx2;-mf16c")
   set_source_files_properties(${kernels}/avx512.c ${kernels}/single_avx512.c PROPERTIES
@@ -48,11 +49,11 @@ if(LAMPION_SIMD AND LAMPION_FOR_x86_64)
 else()
   list(REMOVE_ITEM lampion_sources ${kernels}/avx2.c ${kernels}/avx512.c ${kernels}/single_avx2.c ${kernels}/single_avx512.c)
 endif()
-set_source_files_properties(${kernels}/kernels.c PROPERTIES
+set_source_files_properties(${kernels}/dispatch.c PROPERTIES
   COMPILE_DEFINITIONS "${lampion_kernel_builds}")
 
-# Straight-line code of few bands, one direction at a time: what gcc packs of it into vectors, it takes
-# apart again to store.
+# In straight-line code of few bands, for one direction at a time, what gcc packs into vectors it must take apart again
+# to store.
 set(lampion_straight_options $<IF:$<C_COMPILER_ID:Clang>,-fno-slp-vectorize,-fno-tree-slp-vectorize>)
 set_source_files_properties(${PROJECT_SOURCE_DIR}/src/sh/eval.c PROPERTIES
   COMPILE_OPTIONS "${lampion_straight_options}")

@@ -1,164 +1,40 @@
 /* SPDX-License-Identifier: MIT */
-/* lobe.h - the response of a lobe to many lights at many points, O(bands) a light (lobe.h of the
- * API): s2/4 Σ_l (2l+1) lambda_l R_l(cos a) P_l(axis·w), with monic P_l up to
- * LMP_TABLE_MONIC_BANDS. */
+/* lobe.h - kernels that compute with lobes of surfaces. */
 #ifndef LAMPION_KERNELS_LOBE_H
 #define LAMPION_KERNELS_LOBE_H
 
-#include "src/kernels/accumulate.h"
+#include "src/kernels/light.h"
 
-/* Blocks of points that run side by side: the recurrences of one wait for themselves. */
-#define LOBE_BLOCKS (LMP_LANES == 16 ? 3 : LMP_LANES == 1 ? 1 : 2)
+#define LMPI_KERNEL_LOBES_MAX 5
 
-typedef struct lobe_block {
-    vf point[3], axis[3], rgb[3];
-} lobe_block;
+/* A Phong lobe per surface. */
+typedef struct lmpi_kernel_lobe {
+    lmpi_kernel_vec3 axis;
+    const float *exponent;
+} lmpi_kernel_lobe;
 
-/* The factors of R_l P_l. */
-static inline void lobe_weights(int bands, int monic, const float *lambda, float *weights) {
-    for (int l = 0; l < bands; l++) {
-        const double scale =
-            monic ? (double)lmp_table_norm[lmp_table_index(l, 0)] / (double)lmp_table_pole[l] : 1;
-        weights[l] = (float)((2 * l + 1) / 4.0 * (double)lambda[l] * scale);
-    }
-}
+/* The table of GGX's lobes (lmpi_ggx_table): rows over roughness_min … 1 of nodes over the square
+ * root of the view's cosine, each with LMPI_KERNEL_LOBES_MAX lobes of four parameters, and what the
+ * base loses, by view. lmpi_kernel_ggx_lobe holds the planes of a lobe. */
+typedef struct lmpi_kernel_ggx {
+    const float *nodes, *diffuse;
+    int views, roughnesses;
+    float roughness_min;
+} lmpi_kernel_ggx;
 
-/* Of the cap of one light, where its recurrences stand in each block; sums of odd and of even
- * bands, whose sign differs inside. */
-typedef struct lobe_sums {
-    vf t[LOBE_BLOCKS], u[LOBE_BLOCKS], r[LOBE_BLOCKS], difference[LOBE_BLOCKS];
-    vf p0[LOBE_BLOCKS], p1[LOBE_BLOCKS], odd[LOBE_BLOCKS], even[LOBE_BLOCKS];
-} lobe_sums;
+typedef struct lmpi_kernel_ggx_lobe {
+    float *axis[3], *exponent, *f0, *f90;
+} lmpi_kernel_ggx_lobe;
 
-/* Returns whether some lane is inside; `sign` is set then to the even bands'. */
-LMP_INLINE int lobe_begin(int bands, int blocks, const float *weights,
-                          const lmp_kernel_lights *lights, size_t light, const lobe_block *block,
-                          lobe_sums *sums, vf sign[LOBE_BLOCKS]) {
-    int inside = 0;
-    LMP_UNROLL for (int k = 0; k < blocks; k++) {
-        const cap_lanes cap = lights_cap(lights, light, block[k].point, 0);
-        const vf *axis = block[k].axis;
-        sums->t[k] = cap.t;
-        sums->u[k] = (axis[0] * cap.x + axis[1] * cap.y + axis[2] * cap.z) * cap.per_d;
-        sums->r[k] = cap.s2;
-        sums->difference[k] = vf_set(0);
-        sums->p0[k] = vf_set(1);
-        sums->p1[k] = sums->u[k];
-        sums->odd[k] = (cap.t_full + cap.t_full) * weights[0];
-        sums->even[k] = vf_set(0);
-        if (bands > 1)
-            sums->odd[k] = sums->odd[k] + weights[1] * (sums->r[k] * sums->u[k]);
-        sign[k] = cap.even;
-        inside |= cap.inside;
-    }
-    return inside;
-}
-
-/* Adds band l to `to`, the sums of its parity. */
-LMP_INLINE void lobe_band(int l, int monic, int blocks, const float *weights, lobe_sums *sums,
-                          vf to[LOBE_BLOCKS]) {
-    const float *cap_d = lmp_table_cap_d, *cap_t = lmp_table_cap_t;
-    const float *legendre_d = lmp_table_legendre_d, *legendre_t = lmp_table_legendre_t;
-    const float *square = lmp_table_monic;
-    LMP_OPAQUE(cap_d);
-    LMP_OPAQUE(cap_t);
-    LMP_OPAQUE(square);
-    LMP_UNROLL for (int k = 0; k < blocks; k++) {
-        const vf u = sums->u[k], p1 = sums->p1[k], p0 = sums->p0[k];
-        sums->difference[k] = cap_d[l] * sums->difference[k] - cap_t[l] * sums->t[k] * sums->r[k];
-        sums->r[k] = sums->r[k] + sums->difference[k];
-        sums->p0[k] = p1;
-        sums->p1[k] = monic ? u * p1 - square[l] * p0 : legendre_t[l] * u * p1 - legendre_d[l] * p0;
-        to[k] = to[k] + weights[l] * (sums->r[k] * sums->p1[k]);
-    }
-}
-
-/* Two bands an iteration: each adds to sums of its own. */
-LMP_INLINE void lobe_sum(int bands, int constant, int monic, int blocks, const float *weights,
-                         lobe_sums *sums) {
-    int l = 2;
-    if (constant) {
-        LMP_UNROLL for (; l + 1 < bands; l += 2) {
-            lobe_band(l, monic, blocks, weights, sums, sums->even);
-            lobe_band(l + 1, monic, blocks, weights, sums, sums->odd);
-        }
-    } else {
-        LMP_ROLLED for (; l + 1 < bands; l += 2) {
-            lobe_band(l, monic, blocks, weights, sums, sums->even);
-            lobe_band(l + 1, monic, blocks, weights, sums, sums->odd);
-        }
-    }
-    if (l < bands)
-        lobe_band(l, monic, blocks, weights, sums, sums->even);
-}
-
-LMP_INLINE void lobe_light(int bands, int constant, int monic, int blocks, const float *weights,
-                           const lmp_kernel_lights *lights, size_t light, lobe_block *block) {
-    const lmp_rgb rgb = lights_radiance(lights, light);
-    lobe_sums sums;
-    vf sign[LOBE_BLOCKS];
-    LMP_OPAQUE(weights);
-    const int inside = lobe_begin(bands, blocks, weights, lights, light, block, &sums, sign);
-    lobe_sum(bands, constant, monic, blocks, weights, &sums);
-    LMP_UNROLL for (int k = 0; k < blocks; k++) {
-        if (__builtin_expect(inside, 0))
-            sums.even[k] = sums.even[k] * sign[k];
-        const vf sum = sums.odd[k] + sums.even[k];
-        block[k].rgb[0] = block[k].rgb[0] + rgb.r * sum;
-        block[k].rgb[1] = block[k].rgb[1] + rgb.g * sum;
-        block[k].rgb[2] = block[k].rgb[2] + rgb.b * sum;
-    }
-}
-
-LMP_INLINE void lobe_blocks(int bands, int constant, int monic, int blocks, const float *weights,
-                            const lmp_kernel_vec3 *axes, const lmp_kernel_lights *lights,
-                            const lmp_kernel_vec3 *points, size_t element, size_t count,
-                            const lmp_kernel_out *out) {
-    lobe_block block[LOBE_BLOCKS];
-    LMP_UNROLL for (int k = 0; k < blocks; k++) {
-        const size_t e = element + (size_t)k * LMP_LANES;
-        block[k].point[0] = vf_load(points->x + e);
-        block[k].point[1] = vf_load(points->y + e);
-        block[k].point[2] = vf_load(points->z + e);
-        block[k].axis[0] = vf_load(axes->x + e);
-        block[k].axis[1] = vf_load(axes->y + e);
-        block[k].axis[2] = vf_load(axes->z + e);
-        LMP_UNROLL for (int i = 0; i < 3; i++) block[k].rgb[i] = vf_set(0);
-    }
-    for (size_t light = 0; light < lights->count; light++)
-        lobe_light(bands, constant, monic, blocks, weights, lights, light, block);
-    LMP_ROLLED for (int k = 0; k < blocks; k++) {
-        const size_t e = element + (size_t)k * LMP_LANES;
-        layout_put((const float *)block[k].rgb, 0, 3, out, e, layout_live(count, e));
-    }
-}
-
-LMP_INLINE void lobe_bands(int bands, int constant, const float *weights,
-                           const lmp_kernel_vec3 *axes, const lmp_kernel_lights *lights,
-                           const lmp_kernel_vec3 *points, size_t count, const lmp_kernel_out *out) {
-    const size_t side = LOBE_BLOCKS * LMP_LANES;
-    for (size_t e = 0; e + side <= count; e += side) {
-        if (constant || bands <= LMP_TABLE_MONIC_BANDS)
-            lobe_blocks(bands, constant, 1, LOBE_BLOCKS, weights, axes, lights, points, e, count,
-                        out);
-        else
-            lobe_blocks(bands, 0, 0, LOBE_BLOCKS, weights, axes, lights, points, e, count, out);
-    }
-}
-
-static void kernel_lobe(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
-                        const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
-                        size_t count, const lmp_kernel_out *out) {
-    const size_t side = LOBE_BLOCKS * LMP_LANES;
-    float weights[LMP_BANDS_MAX];
-    lobe_weights(bands, bands <= LMP_TABLE_MONIC_BANDS, lambda, weights);
-    BASIS_SPECIALISE(bands, lobe_bands, weights, axes, lights, points, count, out)
-    for (size_t e = count / side * side; e < count; e += LMP_LANES) {
-        if (bands <= LMP_TABLE_MONIC_BANDS)
-            lobe_blocks(bands, 0, 1, 1, weights, axes, lights, points, e, count, out);
-        else
-            lobe_blocks(bands, 0, 0, 1, weights, axes, lights, points, e, count, out);
-    }
-}
+typedef struct lmpi_lobe_kernels {
+    /* Computes the first `lobes` lobes of each surface, in whole registers. */
+    void (*ggx)(const lmpi_kernel_ggx *table, const lmpi_kernel_vec3 *normal,
+                const lmpi_kernel_vec3 *view, const float *roughness, size_t count, int lobes,
+                const lmpi_kernel_ggx_lobe *to, float *diffuse_f90);
+    /* Computes 3 values: the response of a lobe around each point's axis to the lights. */
+    void (*response)(int bands, const float *lambda, const lmpi_kernel_vec3 *axes,
+                     const lmpi_kernel_lights *lights, const lmpi_kernel_vec3 *points, size_t count,
+                     const lmpi_kernel_out *out);
+} lmpi_lobe_kernels;
 
 #endif

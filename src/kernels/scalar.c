@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define LMP_LANES   1
-#define LMP_KERNELS lmp_kernels_scalar
-#define LMP_SINGLE  lmp_single_scalar
-#include "src/kernels/build.h"
+#define LMPI_LANES   1
+#define LMPI_KERNELS lmpi_kernels_scalar
+#define LMPI_SINGLE  lmpi_single_scalar
+#include "src/kernels/build_tmpl.h"

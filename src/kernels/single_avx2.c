@@ -1,4 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#define LMP_LANES  8
-#define LMP_SINGLE lmp_single_avx2
-#include "src/kernels/single_build.h"
+#define LMPI_LANES  8
+#define LMPI_SINGLE lmpi_single_avx2
+#include "src/kernels/single_build_tmpl.h"

@@ -1,4 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#define LMP_LANES  16
-#define LMP_SINGLE lmp_single_avx512
-#include "src/kernels/single_build.h"
+#define LMPI_LANES  16
+#define LMPI_SINGLE lmpi_single_avx512
+#include "src/kernels/single_build_tmpl.h"

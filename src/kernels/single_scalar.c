@@ -1,4 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#define LMP_LANES  1
-#define LMP_SINGLE lmp_single_scalar
-#include "src/kernels/single_build.h"
+#define LMPI_LANES  1
+#define LMPI_SINGLE lmpi_single_scalar
+#include "src/kernels/single_build_tmpl.h"

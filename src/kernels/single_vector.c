@@ -1,4 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#define LMP_LANES  4
-#define LMP_SINGLE lmp_single_vector
-#include "src/kernels/single_build.h"
+#define LMPI_LANES  4
+#define LMPI_SINGLE lmpi_single_vector
+#include "src/kernels/single_build_tmpl.h"

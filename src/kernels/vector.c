@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define LMP_LANES   4
-#define LMP_KERNELS lmp_kernels_vector
-#define LMP_SINGLE  lmp_single_vector
-#include "src/kernels/build.h"
+#define LMPI_LANES   4
+#define LMPI_KERNELS lmpi_kernels_vector
+#define LMPI_SINGLE  lmpi_single_vector
+#include "src/kernels/build_tmpl.h"

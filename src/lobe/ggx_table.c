@@ -3,7 +3,7 @@
 /* Written by generate/ggx.c: do not edit. */
 #include "src/lobe/ggx_table.h"
 
-const float lmp_ggx_table[LMP_GGX_ROUGHNESSES][LMP_GGX_VIEWS][LMP_GGX_LOBES][4] = {
+const float lmpi_ggx_table[LMPI_GGX_ROUGHNESSES][LMPI_GGX_VIEWS][LMP_GGX_LOBES][4] = {
   { /* alpha 0.0010 */
     { { 5.4458f, 0.17793f, 0.00000f, -0.00000f }, { 2.5637f, 0.0090953f, 0.13980f, 0.13884f }, { 11.0428f, 8.3863f, 0.27045f, 0.24765f }, { 1.2710f, 0.067671f, 0.31352f, 0.31120f }, { 4.4362f, 0.26213f, 0.25789f, 0.26773f }, },
     { { -0.1109f, 0.0090953f, 0.06298f, 0.06705f }, { 1.3909f, 0.024066f, 0.19530f, 0.18952f }, { 9.9202f, 6.3632f, 0.15591f, 0.14514f }, { 0.5534f, 0.056914f, 0.23241f, 0.23084f }, { 3.5213f, 0.39235f, 0.23576f, 0.23173f }, },
@@ -1094,7 +1094,7 @@ const float lmp_ggx_table[LMP_GGX_ROUGHNESSES][LMP_GGX_VIEWS][LMP_GGX_LOBES][4] 
   },
 };
 
-const float lmp_ggx_few[LMP_GGX_ROUGHNESSES] = {
+const float lmpi_ggx_few[LMPI_GGX_ROUGHNESSES] = {
   24,
   24,
   24,
@@ -1129,7 +1129,7 @@ const float lmp_ggx_few[LMP_GGX_ROUGHNESSES] = {
   27,
 };
 
-const float lmp_ggx_diffuse[LMP_GGX_VIEWS] = {
+const float lmpi_ggx_diffuse[LMPI_GGX_VIEWS] = {
   0.0281555f,
   0.0280730f,
   0.0278266f,

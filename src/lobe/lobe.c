@@ -7,9 +7,9 @@
 
 static const double pi = 3.14159265358979323846;
 
-void lmp_lobe_diffuse(int bands, float *lambda) {
-    assert(lmp_is_bands(bands));
-    double even = pi / 4; /* of l = 2, 4, … */
+void lmp_lobe_make_diffuse(int bands, float *lambda) {
+    assert(lmpi_is_bands(bands));
+    double even = pi / 4; /* lambda of l = 2, 4, … */
     for (int l = 0; l < bands; l++) {
         if (l < 2) {
             lambda[l] = (float)(l == 0 ? pi : 2 * pi / 3);
@@ -22,8 +22,8 @@ void lmp_lobe_diffuse(int bands, float *lambda) {
     }
 }
 
-void lmp_lobe_phong(int bands, float exponent, float *lambda) {
-    assert(lmp_is_bands(bands));
+void lmp_lobe_make_phong(int bands, float exponent, float *lambda) {
+    assert(lmpi_is_bands(bands));
     assert(exponent >= 0 && isfinite(exponent));
     const double e = (double)exponent;
     double before = 1, now = (e + 1) / (e + 2); /* lambda_(l-1), lambda_l */
@@ -36,10 +36,10 @@ void lmp_lobe_phong(int bands, float exponent, float *lambda) {
     }
 }
 
-/* Ratios of spherical Bessel functions, which only the downward recurrence gives: upward it
- * amplifies rounding. It forgets its start; above a concentration of 1e8 the start is exact. */
-void lmp_lobe_vmf(int bands, float concentration, float *lambda) {
-    assert(lmp_is_bands(bands));
+/* Computes ratios of spherical Bessel functions by the downward recurrence: upward it would amplify
+ * rounding. The recurrence forgets its start, which is exact above a concentration of 1e8. */
+void lmp_lobe_make_vmf(int bands, float concentration, float *lambda) {
+    assert(lmpi_is_bands(bands));
     assert(concentration > 0 && isfinite(concentration));
     const double k = (double)concentration;
     const int start = bands + 20 + (int)(6 * sqrt(fmin(fabs(k), 1e8)));
@@ -59,5 +59,5 @@ void lmp_lobe_vmf(int bands, float concentration, float *lambda) {
 
 void lmp_lobe_project(int bands, const float *lambda, lmp_vec3 axis, float *sh) {
     lmp_sh_eval(bands, axis, sh);
-    lmp_sh_window_apply(bands, lambda, sh, sh);
+    lmp_sh_apply_window(bands, lambda, sh, sh);
 }

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* brdf_eval.c - one reading of a preintegrated BRDF; the kernels and the shader do the same. */
+/* brdf_eval.c - one reading of a preintegrated BRDF, which the kernels and the shader do alike. */
 #include "src/base/precondition.h"
 #include "src/preintegrated/brdf.h"
 #include "src/preintegrated/spline.h"
 
-/* Where a view lies. */
+/* Where a view lies among the slices. */
 typedef struct view_position {
     const lmp_preintegrated_brdf_info *info;
-    float cosine, sine; /* of theta_o */
+    float cosine, sine; /* cosine and sine of theta_o */
     int32_t view;
-    float fraction; /* of the view after it */
+    float fraction; /* weight of the next view */
 } view_position;
 
-/* The slice coordinate at `at` = 0 … 1 of a remap, as the first of two slices and the fraction of
- * the second. */
+/* Looks up the slice coordinate at `at` = 0 … 1 of a remap: returns the first of two slices and the
+ * fraction of the second. */
 static float lookup(const float *remap, uint32_t steps, uint32_t count, float at, int32_t *first) {
     const float step = fminf(fmaxf(at, 0), 1) * (float)steps;
     const int32_t i = lmp_lookup_first(step, (float)(steps - 1));
@@ -32,7 +32,7 @@ static void lookup_view(const lmp_preintegrated_brdf_info *info, float cos_theta
                                 lmp_lookup_arc(1 - cosine) * (2 / LMP_LOOKUP_PI), &position->view);
 }
 
-/* Adds `weight` times a slice's value. */
+/* Adds a slice's value times `weight`. */
 static void add_slice(const lmp_preintegrated_brdf_info *info,
                       const lmp_preintegrated_brdf_slice *slice, float s, float azimuth,
                       float weight, float rgb[3]) {
@@ -41,8 +41,8 @@ static void add_slice(const lmp_preintegrated_brdf_info *info,
     const int32_t i = lmp_lookup_base(row, (float)(slice->rows - 3));
     const int32_t j = lmp_lookup_base(column, (float)(slice->columns - 3));
     float down[4], across[4], sums[12] = { 0 };
-    lmp_spline_weights(lmp_lookup_past(row, i), down);
-    lmp_spline_weights(lmp_lookup_past(column, j), across);
+    lmpi_spline_weights(lmp_lookup_past(row, i), down);
+    lmpi_spline_weights(lmp_lookup_past(column, j), across);
     const int16_t *texel =
         info->texels + 3 * (slice->first + (size_t)(i - 1) * slice->columns + (size_t)(j - 1));
     for (int k = 0; k < 4; k++, texel += 3 * (size_t)slice->columns)
@@ -54,7 +54,7 @@ static void add_slice(const lmp_preintegrated_brdf_info *info,
                            across[3] * sums[9 + c]);
 }
 
-/* The axis seen from the mirror direction (-sine, 0, cosine): its angle, and the azimuth. */
+/* Returns the angle of an axis from the mirror direction (-sine, 0, cosine), and its azimuth. */
 static float angle_from_mirror(const view_position *position, lmp_vec3 axis, float *azimuth) {
     const float z = axis.z * position->cosine - axis.x * position->sine;
     const float x = axis.x * position->cosine + axis.z * position->sine, y = axis.y;
@@ -64,9 +64,9 @@ static float angle_from_mirror(const view_position *position, lmp_vec3 axis, flo
 
 lmp_rgb lmp_preintegrated_brdf_eval(const lmp_preintegrated_brdf *brdf, float cos_theta_o,
                                     lmp_vec3 axis, float one_minus_cos) {
-    assert(one_minus_cos >= 0 && one_minus_cos <= 1 && lmp_is_unit(axis));
+    assert(one_minus_cos >= 0 && one_minus_cos <= 1 && lmpi_is_unit(axis));
     if (isnan(cos_theta_o) || isnan(axis.x + axis.y + axis.z))
-        one_minus_cos = NAN; /* of which every channel is a multiple */
+        one_minus_cos = NAN; /* every channel becomes a multiple of it */
     const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(brdf);
     view_position position;
     lookup_view(&info, cos_theta_o, &position);

@@ -1,54 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-#include "src/preintegrated/brdf_make.h"
-
+/* brdf_make.c - makes a preintegrated BRDF: its series, the rows of its slices, the views and half
+ * angles to hold, then the slices of each half angle. */
 #include "src/base/host.h"
-#include "src/kernels/kernels.h"
+#include "src/preintegrated/brdf_nodes.h"
+#include "src/preintegrated/brdf_rows.h"
+#include "src/preintegrated/brdf_slices.h"
 
 #include <stdatomic.h>
 #include <string.h>
-
-/* --- the object ------------------------------------------------------------------------------- */
-
-lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host,
-                                           const lmp_preintegrated_brdf_info *info,
-                                           lmp_preintegrated_brdf **brdf) {
-    const lmp_host resolved = lmp_host_resolve(host);
-    *brdf = NULL;
-    if (info->texel_count > BRDF_TEXELS_MAX)
-        return LMP_ERROR_MEMORY;
-    const size_t slices = (size_t)info->view_count * info->cap_count;
-    const size_t slice_bytes = slices * sizeof(lmp_preintegrated_brdf_slice);
-    const size_t ambient_bytes = info->view_count * sizeof(lmp_rgb);
-    const size_t texel_bytes = (info->texel_count + LMP_KERNEL_TEXELS_SPARE) * 3 * sizeof(int16_t);
-    lmp_preintegrated_brdf *made =
-        lmp_allocate(&resolved, sizeof *made + slice_bytes + ambient_bytes + texel_bytes);
-    *brdf = made;
-    if (!made)
-        return LMP_ERROR_MEMORY;
-    made->info = *info;
-    made->host = resolved;
-    made->slices = (lmp_preintegrated_brdf_slice *)(made + 1);
-    made->ambient = (lmp_rgb *)(made->slices + slices);
-    made->texels = (int16_t *)(made->ambient + info->view_count);
-    made->info.view_remap = made->view_remap;
-    made->info.cap_remap = made->cap_remap;
-    made->info.slices = made->slices;
-    made->info.ambient = made->ambient;
-    made->info.texels = made->texels;
-    memset(made->texels + 3 * info->texel_count, 0, LMP_KERNEL_TEXELS_SPARE * 3 * sizeof(int16_t));
-    made->info.bytes = sizeof *made + slice_bytes + ambient_bytes + texel_bytes;
-    return LMP_OK;
-}
-
-void lmp_preintegrated_brdf_destroy(lmp_preintegrated_brdf *brdf) {
-    lmp_release_object(brdf);
-}
-
-lmp_preintegrated_brdf_info lmp_preintegrated_brdf_describe(const lmp_preintegrated_brdf *brdf) {
-    return brdf->info;
-}
-
-/* --- making one ------------------------------------------------------------------------------- */
 
 typedef struct making {
     const lmp_preintegrated_brdf_desc *desc;
@@ -67,22 +26,22 @@ static size_t texels_max(const lmp_preintegrated_brdf_desc *desc) {
 static lmp_result slices_task(size_t index, void *data) {
     making *job = data;
     brdf_column *column = &job->columns[index];
-    const lmp_result result = lmp_preintegrated_brdf_slices(&job->views, job->caps, job->cap_count,
-                                                            (int)index, job->desc->error, column);
+    const lmp_result result = lmpi_preintegrated_brdf_slices(&job->views, job->caps, job->cap_count,
+                                                             (int)index, job->desc->error, column);
     if (result != LMP_OK)
         return result;
     const size_t texels = atomic_fetch_add(&job->texels, column->texel_count) + column->texel_count;
     return texels <= texels_max(job->desc) ? LMP_OK : LMP_ERROR_MEMORY;
 }
 
-/* The slice coordinate at every step, from the steps of the slices. */
+/* Fills in the slice coordinate at every step, given the steps of the slices. */
 static void fill_remap(const int *nodes, int count, float *remap) {
     for (int k = 0; k + 1 < count; k++)
         for (int i = nodes[k]; i <= nodes[k + 1]; i++)
             remap[i] = (float)k + (float)(i - nodes[k]) / (float)(nodes[k + 1] - nodes[k]);
 }
 
-/* All columns' slices, by view, into one object. */
+/* Assembles the slices of all columns, view by view, into one object. */
 static lmp_result assemble(const lmp_host *host, const making *job,
                            lmp_preintegrated_brdf_info info, lmp_preintegrated_brdf **brdf) {
     const size_t caps = (size_t)job->cap_count;
@@ -92,10 +51,10 @@ static lmp_result assemble(const lmp_host *host, const making *job,
     info.cap_count = (uint32_t)job->cap_count;
     info.view_steps = (uint32_t)job->series->steps;
     info.cap_steps = BRDF_CAP_STEPS;
-    const lmp_result result = lmp_preintegrated_brdf_allocate(host, &info, brdf);
+    const lmp_result result = lmpi_preintegrated_brdf_allocate(host, &info, brdf);
     if (result != LMP_OK)
         return result;
-    int view_steps[BRDF_STEPS_MAX + 1];
+    int view_steps[BRDF_STEPS_MAX + 1] = { 0 };
     for (int i = 0; i < job->view_count; i++)
         view_steps[i] = job->series->step[job->view_nodes[i]];
     fill_remap(view_steps, job->view_count, (*brdf)->view_remap);
@@ -119,33 +78,33 @@ static lmp_result assemble(const lmp_host *host, const making *job,
 static lmp_result make_slices(const lmp_host *host, making *job,
                               const lmp_preintegrated_brdf_info *info,
                               lmp_preintegrated_brdf **brdf) {
-    lmp_result result = lmp_host_run(&job->series->host, BRDF_NODES_DONE, 1, (size_t)job->cap_count,
-                                     slices_task, job);
+    lmp_result result = lmpi_host_run(&job->series->host, BRDF_NODES_DONE, 1,
+                                      (size_t)job->cap_count, slices_task, job);
     if (result == LMP_OK)
         result = assemble(host, job, *info, brdf);
     for (int i = 0; i < job->cap_count; i++)
-        lmp_preintegrated_brdf_column_free(job->series, &job->columns[i]);
+        lmpi_preintegrated_brdf_column_free(job->series, &job->columns[i]);
     return result;
 }
 
 static lmp_result make(const lmp_host *host, making *job, const lmp_preintegrated_brdf_info *info,
                        lmp_preintegrated_brdf **brdf) {
     lmp_result result =
-        lmp_preintegrated_brdf_caps(job->series, job->desc->error, job->caps, &job->cap_count);
+        lmpi_preintegrated_brdf_caps(job->series, job->desc->error, job->caps, &job->cap_count);
     if (result == LMP_OK)
-        result = lmp_preintegrated_brdf_view_nodes(job->series, job->desc->error, job->view_nodes,
-                                                   &job->view_count);
+        result = lmpi_preintegrated_brdf_view_nodes(job->series, job->desc->error, job->view_nodes,
+                                                    &job->view_count);
     if (result == LMP_OK)
-        result = lmp_preintegrated_brdf_views(job->series, job->view_nodes, (size_t)job->view_count,
-                                              0, &job->views);
+        result = lmpi_preintegrated_brdf_views(job->series, job->view_nodes,
+                                               (size_t)job->view_count, 0, &job->views);
     if (result != LMP_OK)
         return result;
     result = make_slices(host, job, info, brdf);
-    lmp_preintegrated_brdf_views_free(&job->views);
+    lmpi_preintegrated_brdf_views_free(&job->views);
     return result;
 }
 
-/* Puts the defaults in place; whether all members are in their ranges. */
+/* Fills in the defaults; returns whether all members are in their ranges. */
 static bool resolve_desc(const lmp_brdf_table *table, lmp_preintegrated_brdf_desc *desc) {
     desc->error = desc->error == 0 ? LMP_PREINTEGRATED_LOBE_ERROR_DEFAULT : desc->error;
     desc->bytes_max = desc->bytes_max ? desc->bytes_max : LMP_PREINTEGRATED_BRDF_BYTES_MAX;
@@ -153,11 +112,11 @@ static bool resolve_desc(const lmp_brdf_table *table, lmp_preintegrated_brdf_des
            lmp_brdf_table_describe(table).azimuths == 1;
 }
 
-/* All that follows the series. */
+/* Makes a preintegrated BRDF from its series. */
 static lmp_result make_from_series(const lmp_host *host, const lmp_brdf_table_info *table,
                                    const lmp_preintegrated_brdf_desc *desc, brdf_series *series,
                                    making *job, lmp_preintegrated_brdf **brdf) {
-    const lmp_result result = lmp_preintegrated_brdf_choose_rows(series, desc->error);
+    const lmp_result result = lmpi_preintegrated_brdf_choose_rows(series, desc->error);
     if (result != LMP_OK)
         return result;
     memset(job, 0, sizeof *job);
@@ -186,18 +145,18 @@ lmp_result lmp_preintegrated_brdf_create(const lmp_host *host,
         own = *desc;
     if (!resolve_desc(table, &own))
         return LMP_ERROR_ARGUMENT;
-    const lmp_host resolved = lmp_host_resolve(host);
-    brdf_series *series = lmp_allocate(&resolved, sizeof *series);
-    making *job = lmp_allocate(&resolved, sizeof *job);
+    const lmp_host resolved = lmpi_host_resolve(host);
+    brdf_series *series = lmpi_allocate(&resolved, sizeof *series);
+    making *job = lmpi_allocate(&resolved, sizeof *job);
     lmp_result result = series && job
-                            ? lmp_preintegrated_brdf_series(&resolved, own.error, table, series)
+                            ? lmpi_preintegrated_brdf_series(&resolved, own.error, table, series)
                             : LMP_ERROR_MEMORY;
     if (result == LMP_OK) {
         const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
         result = make_from_series(host, &info, &own, series, job, brdf);
-        lmp_preintegrated_brdf_series_free(series);
+        lmpi_preintegrated_brdf_series_free(series);
     }
-    lmp_release(&resolved, job);
-    lmp_release(&resolved, series);
+    lmpi_release(&resolved, job);
+    lmpi_release(&resolved, series);
     return result;
 }

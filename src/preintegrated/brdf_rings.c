@@ -3,24 +3,24 @@
  *
  * A ring's azimuths share the sum over l of each order m (paper Eq. 6 with the cap's R_l, Eq. 13);
  * then the orders are summed at every azimuth. */
-#include "src/preintegrated/brdf_series.h"
+#include "src/preintegrated/brdf_rings.h"
 
 #include "src/base/host.h"
-#include "src/light/cap.h"
+#include "src/sphere/sphere.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define ROWS        16 /* rings at a time: their sums of 512 views stay in the second cache */
-#define TERMS       4  /* of a sum at a time: one load and one store of the sum for four products */
-#define COLUMNS_MIN 4  /* intervals over half a turn: a reading's spline spans three */
-#define COLUMNS_MAX 128 /* one a band at least */
-#define FEW_ORDERS  16  /* up to which all orders are sampled at twice their frequency */
+#define ROWS        16 /* rings at a time: their sums of 512 views stay in the second-level cache */
+#define TERMS       4  /* terms at a time: one load and one store of the sum for four products */
+#define COLUMNS_MIN 4  /* fewest intervals over half a turn: a reading's spline spans three */
+#define COLUMNS_MAX 128 /* most intervals, at least one per band */
+#define FEW_ORDERS  16  /* orders up to which all are sampled at twice their frequency */
 
 /* --- sets of views ---------------------------------------------------------------------------- */
 
-/* Intervals over the azimuths: a power of two, for slices to halve it. Of many orders the last
- * ones are faint, and one interval an order is enough. */
+/* Returns the intervals over the azimuths: a power of two, so that slices can halve it. If there
+ * are many orders the last ones are faint, and one interval per order is enough. */
 static int columns_for(const brdf_series *series, int orders) {
     int intervals = COLUMNS_MIN;
     while (intervals < COLUMNS_MAX && intervals < (orders <= FEW_ORDERS ? 2 * orders : orders))
@@ -28,12 +28,12 @@ static int columns_for(const brdf_series *series, int orders) {
     return series->mirrored ? intervals + 1 : 2 * intervals;
 }
 
-lmp_result lmp_preintegrated_brdf_views(const brdf_series *series, const int *view, size_t count,
-                                        int columns, brdf_views *views) {
+lmp_result lmpi_preintegrated_brdf_views(const brdf_series *series, const int *view, size_t count,
+                                         int columns, brdf_views *views) {
     const size_t values = LMP_SH_COUNT(series->bands);
     *views = (brdf_views) { .series = series, .count = count };
     views->coefficients =
-        lmp_allocate(&series->host, values * count * 3 * sizeof *views->coefficients);
+        lmpi_allocate(&series->host, values * count * 3 * sizeof *views->coefficients);
     if (!views->coefficients)
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < count; i++) {
@@ -47,24 +47,24 @@ lmp_result lmp_preintegrated_brdf_views(const brdf_series *series, const int *vi
     return LMP_OK;
 }
 
-void lmp_preintegrated_brdf_views_free(brdf_views *views) {
-    lmp_release(&views->series->host, views->coefficients);
+void lmpi_preintegrated_brdf_views_free(brdf_views *views) {
+    lmpi_release(&views->series->host, views->coefficients);
     views->coefficients = NULL;
 }
 
 /* --- the sum ---------------------------------------------------------------------------------- */
 
-/* The mean of P_l over the cap, times the solid angles: R_l/R_0 (lobe_fill.c). */
+/* Computes the mean of P_l over the cap, times the solid angles: R_l/R_0 (lobe_fill.c). */
 static void cap_means(const brdf_series *series, double half_angle, float *means) {
     const double one_minus_cos = 2 * sin(half_angle / 2) * sin(half_angle / 2);
-    const double angle = 2 * LMP_PREINTEGRATED_PI * one_minus_cos + (double)series->lobe_angle;
-    lmp_cap_polynomials(series->bands, (float)one_minus_cos, means);
+    const double angle = 2 * LMPI_PREINTEGRATED_PI * one_minus_cos + (double)series->lobe_angle;
+    lmpi_cap_polynomials(series->bands, (float)one_minus_cos, means);
     for (int l = 0; l < series->bands; l++)
         means[l] *= (float)(angle * (1 - one_minus_cos / 2));
 }
 
-/* What a thread of the sum works on. Where the BRDF is mirrored, orders have cosines alone; else
- * the sines of order m stand after its cosines. */
+/* Memory of one thread of the sum. A mirrored BRDF's orders have cosines alone; otherwise the sines
+ * of order m follow its cosines. */
 typedef struct rings {
     const brdf_views *views;
     size_t rows;
@@ -74,15 +74,15 @@ typedef struct rings {
     float *basis;                  /* ROWS * bands²: Y_lm at azimuth 0 */
     float *sums;                   /* [order][row][view][channel] */
     float circle[2 * COLUMNS_MAX]; /* cosines over the full circle */
-    float *waves;                  /* [order][column]: of the azimuths */
+    float *waves;                  /* [order][column]: cosines and sines at the azimuths */
 } rings;
 
-/* The index of an order's cosines, or for negative m of its sines. */
+/* Returns the index of an order's cosines, or of its sines for negative m. */
 static size_t index_of(const rings *r, int m) {
     return r->views->series->mirrored ? (size_t)m : (size_t)(m > 0 ? 2 * m - 1 : -2 * m);
 }
 
-/* Adds `terms` rows times their weights, in this order whatever is done at once. */
+/* Adds `terms` rows times their weights, in this order however many are done at once. */
 static void add_terms(size_t count, const float *weights, const float *const *from, size_t terms,
                       float *restrict to) {
     if (terms == TERMS) {
@@ -101,8 +101,8 @@ static size_t terms_of(size_t left) {
     return left < TERMS ? left : TERMS;
 }
 
-/* Σ_l of one order, negative for the sines. Some bands at a time, so that their coefficients are
- * fetched once for all rows. */
+/* Sums over l for one order; negative orders are the sines. A few bands are done at a time, so that
+ * their coefficients are fetched once for all rows. */
 static void sum_bands(const rings *r, int m) {
     const size_t width = 3 * r->views->count, bands = (size_t)r->views->series->bands;
     const size_t order = (size_t)abs(m), first = 3 * r->first[order];
@@ -124,7 +124,7 @@ static void sum_bands(const rings *r, int m) {
     }
 }
 
-/* cos(m p) at the azimuths p; sines for negative m. */
+/* Fills in cos(m p) at the azimuths p, or sines for negative m. */
 static void order_waves(rings *r, int m, int columns) {
     const int circle = 2 * COLUMNS_MAX;
     const int intervals = r->views->series->mirrored ? 2 * (columns - 1) : columns;
@@ -135,7 +135,7 @@ static void order_waves(rings *r, int m, int columns) {
     }
 }
 
-/* One view's values of the rings, from all orders' sums. */
+/* Computes one view's values on the rings from the sums of all orders. */
 static void add_orders_of(const rings *r, size_t v, size_t row_first, size_t row_count,
                           float *values) {
     const brdf_views *views = r->views;
@@ -184,20 +184,20 @@ static void sum_rows(rings *r, const double *g, size_t row_first, size_t row_cou
     }
 }
 
-lmp_result lmp_preintegrated_brdf_sum(const brdf_views *views, double angle, const double *g,
-                                      size_t rows, float *const *values) {
+lmp_result lmpi_preintegrated_brdf_sum(const brdf_views *views, double angle, const double *g,
+                                       size_t rows, float *const *values) {
     const brdf_series *series = views->series;
     rings r = { .views = views, .orders = series->orders[views->view[views->count - 1]] };
     const size_t terms_all = (size_t)(series->mirrored ? r.orders : 2 * r.orders - 1);
     const size_t basis = ROWS * LMP_SH_COUNT(series->bands);
     const size_t sums = terms_all * ROWS * 3 * views->count, waves = terms_all * 2 * COLUMNS_MAX;
-    r.basis = lmp_allocate(&series->host, (basis + sums + waves) * sizeof *r.basis);
+    r.basis = lmpi_allocate(&series->host, (basis + sums + waves) * sizeof *r.basis);
     if (!r.basis)
         return LMP_ERROR_MEMORY;
     r.sums = r.basis + basis;
     r.waves = r.sums + sums;
     for (int i = 0; i < 2 * COLUMNS_MAX; i++)
-        r.circle[i] = (float)cos(LMP_PREINTEGRATED_PI * i / COLUMNS_MAX);
+        r.circle[i] = (float)cos(LMPI_PREINTEGRATED_PI * i / COLUMNS_MAX);
     for (int m = 0; m < r.orders; m++)
         while (series->orders[views->view[r.first[m]]] <= m)
             r.first[m]++;
@@ -206,6 +206,6 @@ lmp_result lmp_preintegrated_brdf_sum(const brdf_views *views, double angle, con
         r.rows = rows - row < ROWS ? rows - row : ROWS;
         sum_rows(&r, g, row, rows, values);
     }
-    lmp_release(&series->host, r.basis);
+    lmpi_release(&series->host, r.basis);
     return LMP_OK;
 }

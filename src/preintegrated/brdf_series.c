@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 /* brdf_series.c - a table's series rotated to the mirror direction, and truncated to the bands and
- * orders that matter there: a lobe is nearly symmetric around it, so few do but at grazing views.
- */
+ * orders that matter there: a lobe is nearly symmetric around it, so few orders matter except at
+ * grazing views. */
 #include "src/preintegrated/brdf_series.h"
 
 #include "src/base/host.h"
 
-#define TAIL_BANDS       0.06 /* of the error: what the bands left out may reach */
-#define TAIL_ORDERS      0.12 /* the same of orders: 0.5 errs by 0.64 % at steel, not by 0.32 */
-#define TRUNCATION_VIEWS 32   /* that decide how many bands matter */
-#define STEPS_BANDS      40   /* up to which every step of the view is rotated */
-#define STEPS_FEW        256 /* about as many as are rotated of more bands (128: 1.5 % at steel), and */
-#define STEPS_LAST       0.9375 /* all of this fraction of the views on */
-#define SAMPLES_MIN      16     /* and two a band */
-#define WIDTH            1.2f   /* of the finest detail, times the bands */
+#define TAIL_BANDS       0.06   /* fraction of the error that the bands left out may reach */
+#define TAIL_ORDERS      0.12   /* for orders left out; 0.5 errs by 0.64 % at steel, not by 0.32 */
+#define TRUNCATION_VIEWS 32     /* views that decide how many bands matter */
+#define STEPS_BANDS      40     /* bands up to which every step of the view is rotated */
+#define STEPS_FEW        256    /* steps rotated of more bands, about (128: 1.5 % at steel), and */
+#define STEPS_LAST       0.9375 /* all steps past this fraction of them */
+#define SAMPLES_MIN      16     /* samples, and two more per band */
+#define WIDTH            1.2f   /* size of the finest detail, times the bands */
 
 /* --- the coefficients ------------------------------------------------------------------------- */
 
-/* One channel of a view on the full layout l² + l + m, `bands` bands of it. */
+/* Expands one channel of a view to the full layout l² + l + m, of `bands` bands. */
 static void expand(const lmp_brdf_table_info *info, const float *plane, int bands, float *sh) {
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++) {
@@ -26,7 +26,7 @@ static void expand(const lmp_brdf_table_info *info, const float *plane, int band
         }
 }
 
-/* Where series are sampled: angles g from the mirror direction, Y_lm at azimuth 0. */
+/* Where series are sampled: angles g from the mirror direction, with Y_lm at azimuth 0. */
 typedef struct samples {
     int bands;
     size_t count;
@@ -35,51 +35,51 @@ typedef struct samples {
 
 static lmp_result samples_create(const lmp_host *host, int bands, samples *made) {
     *made = (samples) { .bands = bands, .count = (size_t)(2 * bands + SAMPLES_MIN) };
-    made->basis = lmp_allocate(host, made->count * LMP_SH_COUNT(bands) * sizeof *made->basis);
+    made->basis = lmpi_allocate(host, made->count * LMP_SH_COUNT(bands) * sizeof *made->basis);
     if (!made->basis)
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < made->count; i++) {
-        const double g = LMP_PREINTEGRATED_PI * (double)i / (double)(made->count - 1);
+        const double g = LMPI_PREINTEGRATED_PI * (double)i / (double)(made->count - 1);
         lmp_sh_eval(bands, (lmp_vec3) { (float)sin(g), 0, (float)cos(g) },
                     made->basis + i * LMP_SH_COUNT(bands));
     }
     return LMP_OK;
 }
 
-/* One view on its way to the lobe's frame. */
+/* What the rotation of views to their lobes' frames needs and finds. */
 typedef struct rotation {
     const lmp_brdf_table *table;
     brdf_series *series;
     float error;
     samples samples;
-    float floor; /* peaks count as at least that */
+    float floor; /* the least value by which errors are divided */
     float peaks[BRDF_STEPS_MAX + 1];
     int bands[BRDF_STEPS_MAX + 1]; /* that matter */
 } rotation;
 
-/* The first `bands` bands of a view of the table, rotated: [channel][bands²]. */
+/* Rotates the first `bands` bands of a view of the table: [channel][bands²]. */
 static lmp_result rotate(const rotation *job, int step, int bands, float *rotated) {
     const brdf_series *series = job->series;
     const lmp_brdf_table_info info = lmp_brdf_table_describe(job->table);
     const size_t count = LMP_SH_COUNT(bands);
-    const double theta = LMP_PREINTEGRATED_PI / 2 * step / series->steps;
+    const double theta = LMPI_PREINTEGRATED_PI / 2 * step / series->steps;
     const lmp_quat to_mirror = { 0, (float)sin(theta / 2), 0, (float)cos(theta / 2) };
-    float *memory = lmp_allocate(
+    float *memory = lmpi_allocate(
         &series->host, (3 * info.count + count + LMP_SH_ROTATION_COUNT(bands)) * sizeof *memory);
     if (!memory)
         return LMP_ERROR_MEMORY;
     float *planes = memory, *sh = planes + 3 * info.count, *matrices = sh + count;
-    lmp_sh_rotation(bands, to_mirror, matrices);
-    lmp_brdf_table_view(job->table, (float)cos(theta), 0, planes);
+    lmp_sh_make_rotation(bands, to_mirror, matrices);
+    lmp_brdf_table_interpolate(job->table, (float)cos(theta), 0, planes);
     for (size_t c = 0; c < 3; c++) {
         expand(&info, planes + c * info.count, bands, sh);
         lmp_sh_rotate(bands, matrices, sh, rotated + c * count);
     }
-    lmp_release(&series->host, memory);
+    lmpi_release(&series->host, memory);
     return LMP_OK;
 }
 
-/* Band l of a channel at a sample, on both sides of the mirror direction. */
+/* Evaluates band l of a channel at a sample, on both sides of the mirror direction. */
 static void band_at(const float *sh, const float *basis, int l, float sides[2]) {
     const int at = l * l + l;
     float even = 0, odd = 0;
@@ -91,7 +91,7 @@ static void band_at(const float *sh, const float *basis, int l, float sides[2]) 
     sides[1] = even - odd;
 }
 
-/* The largest of the bands from l on, as one falls to 0: peaks[l], for every l. */
+/* Computes peaks[l], the largest sum of the bands from l on where bands fall to 0, for every l. */
 static void tails(const rotation *job, const float *rotated, float *peaks) {
     const int bands = job->samples.bands;
     const size_t count = LMP_SH_COUNT(bands);
@@ -109,12 +109,12 @@ static void tails(const rotation *job, const float *rotated, float *peaks) {
         }
 }
 
-/* How many bands of one view matter. */
+/* Finds how many bands of one view matter. */
 static lmp_result truncate_view(size_t index, void *data) {
     rotation *job = data;
     const int bands = job->samples.bands, step = (int)index * job->series->steps / TRUNCATION_VIEWS;
     float peaks[LMP_BANDS_MAX];
-    float *rotated = lmp_allocate(&job->series->host, 3 * LMP_SH_COUNT(bands) * sizeof *rotated);
+    float *rotated = lmpi_allocate(&job->series->host, 3 * LMP_SH_COUNT(bands) * sizeof *rotated);
     const lmp_result result = rotated ? rotate(job, step, bands, rotated) : LMP_ERROR_MEMORY;
     if (result == LMP_OK) {
         tails(job, rotated, peaks);
@@ -124,24 +124,24 @@ static lmp_result truncate_view(size_t index, void *data) {
             if (!(peaks[l] <= (float)TAIL_BANDS * job->error * peaks[0]))
                 job->bands[index] = l + 1;
     }
-    lmp_release(&job->series->host, rotated);
+    lmpi_release(&job->series->host, rotated);
     return result;
 }
 
 static lmp_result truncate_bands(rotation *job) {
     const size_t views = TRUNCATION_VIEWS + 1;
     const lmp_result result =
-        lmp_host_run(&job->series->host, 0, BRDF_TRUNCATION_DONE, views, truncate_view, job);
+        lmpi_host_run(&job->series->host, 0, BRDF_TRUNCATION_DONE, views, truncate_view, job);
     job->series->bands = 1;
     for (size_t i = 0; i < views; i++) {
         if (job->bands[i] > job->series->bands)
             job->series->bands = job->bands[i];
-        job->floor = fmaxf(job->floor, (float)LMP_PREINTEGRATED_BRDF_FLOOR * job->peaks[i]);
+        job->floor = fmaxf(job->floor, (float)LMPI_PREINTEGRATED_BRDF_FLOOR * job->peaks[i]);
     }
     return result;
 }
 
-/* What each order of a channel gives at a sample; no sines where the table is mirrored. */
+/* Sums what each order of a channel gives at a sample; a mirrored table has no sines. */
 static void sum_orders(const float *sh, const float *basis, int bands, bool mirrored,
                        float *cosines, float *sines) {
     for (int m = 0; m < bands; m++)
@@ -155,7 +155,7 @@ static void sum_orders(const float *sh, const float *basis, int bands, bool mirr
     }
 }
 
-/* The orders without which a view keeps its values, and its largest value. */
+/* Finds the largest value of a view, and returns how many of its orders keep its values. */
 static int count_orders(const rotation *job, const float *rotated, float *peak) {
     const int bands = job->series->bands;
     const size_t count = LMP_SH_COUNT(bands), all = LMP_SH_COUNT(job->samples.bands);
@@ -191,39 +191,40 @@ static lmp_result rotate_view(size_t index, void *data) {
     if (result != LMP_OK)
         return result;
     for (size_t c = 0; c < 3; c++)
-        ambient[c] = rotated[c * count] * (float)sqrt(4 * LMP_PREINTEGRATED_PI);
+        ambient[c] = rotated[c * count] * (float)sqrt(4 * LMPI_PREINTEGRATED_PI);
     series->ambient[index] = (lmp_rgb) { ambient[0], ambient[1], ambient[2] };
     series->orders[index] = count_orders(job, rotated, &job->peaks[index]);
     return LMP_OK;
 }
 
-/* The solid angle of a lobe as high as its peak with all that it reflects, of the narrowest. */
+/* Returns the smallest solid angle, over the views, of a lobe as high as the view's peak that
+ * reflects all the view reflects. */
 static float lobe_angle(const rotation *job) {
     const brdf_series *series = job->series;
     const int bands = series->bands;
-    float angle = (float)(2 * LMP_PREINTEGRATED_PI);
+    float angle = (float)(2 * LMPI_PREINTEGRATED_PI);
     for (int i = 0; series->step[i] < series->steps * 3 / 4; i++) {
         const lmp_rgb all = series->ambient[i];
         const float most = fmaxf(all.r, fmaxf(all.g, all.b));
         if (most < angle * job->peaks[i])
             angle = most / job->peaks[i];
     }
-    return fmaxf(angle, (float)LMP_PREINTEGRATED_PI / (float)(bands * bands));
+    return fmaxf(angle, (float)LMPI_PREINTEGRATED_PI / (float)(bands * bands));
 }
 
-/* A table bends at its views, and falls where a fit's shadowing begins: steps are parts of the
- * views' step, so that none bends within one. (Tables of more than 512 views have finer steps, and
- * hardly bend.) */
+/* Returns the number of steps of the view. A table bends at its views, and falls where a fit's
+ * shadowing begins: steps divide the views' step, so that no bend lies within one. (Tables of more
+ * than 512 views have finer steps, and hardly bend.) */
 static int count_steps(int views) {
     const int halves = 2 * views - 1;
     return halves > BRDF_STEPS_MAX ? BRDF_STEPS_MAX : halves * (BRDF_STEPS_MAX / halves);
 }
 
-/* The steps that are rotated, which costs bands³ each: all of few bands. Of many, every so many,
- * the table's own views among them, and all of the last, where the light that a fit reflects grows
- * and falls fastest. */
+/* Chooses the steps that are rotated, at a cost of bands³ each. For few bands it takes all. For
+ * many it takes every so many, the table's own views among them, and all of the last ones, where
+ * the light that a fit reflects grows and falls fastest. */
 static void choose_steps(brdf_series *series, int views, int bands) {
-    const int parts = series->steps / (2 * views - 1); /* of half a view's step */
+    const int parts = series->steps / (2 * views - 1); /* parts of half a view's step */
     int stride = 1;
     while (bands > STEPS_BANDS && stride < parts &&
            (series->steps > stride * STEPS_FEW || parts % stride))
@@ -233,7 +234,7 @@ static void choose_steps(brdf_series *series, int views, int bands) {
             series->step[series->view_count++] = step;
 }
 
-int lmp_preintegrated_brdf_view_at(const brdf_series *series, int part, int parts) {
+int lmpi_preintegrated_brdf_view_at(const brdf_series *series, int part, int parts) {
     int view = series->view_count - 1;
     while (series->step[view] > series->steps * part / parts)
         view--;
@@ -246,12 +247,12 @@ static lmp_result rotate_all(rotation *job) {
     lmp_result result = truncate_bands(job);
     if (result != LMP_OK)
         return result;
-    series->coefficients = lmp_allocate(&series->host, 3 * LMP_SH_COUNT(series->bands) * views *
-                                                           sizeof *series->coefficients);
+    series->coefficients = lmpi_allocate(&series->host, 3 * LMP_SH_COUNT(series->bands) * views *
+                                                            sizeof *series->coefficients);
     if (!series->coefficients)
         return LMP_ERROR_MEMORY;
-    result = lmp_host_run(&series->host, BRDF_TRUNCATION_DONE, BRDF_SERIES_DONE, views, rotate_view,
-                          job);
+    result = lmpi_host_run(&series->host, BRDF_TRUNCATION_DONE, BRDF_SERIES_DONE, views,
+                           rotate_view, job);
     if (result != LMP_OK)
         return result;
     for (size_t i = 1; i < views; i++)
@@ -259,18 +260,18 @@ static lmp_result rotate_all(rotation *job) {
             series->orders[i] = series->orders[i - 1];
     series->width = WIDTH / (float)series->bands;
     series->lobe_angle = lobe_angle(job);
-    series->radius = sqrtf(series->lobe_angle / (float)LMP_PREINTEGRATED_PI);
+    series->radius = sqrtf(series->lobe_angle / (float)LMPI_PREINTEGRATED_PI);
     return LMP_OK;
 }
 
-lmp_result lmp_preintegrated_brdf_series(const lmp_host *host, float error,
-                                         const lmp_brdf_table *table, brdf_series *series) {
+lmp_result lmpi_preintegrated_brdf_series(const lmp_host *host, float error,
+                                          const lmp_brdf_table *table, brdf_series *series) {
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
     *series = (brdf_series) { .host = *host,
                               .steps = count_steps(info.views),
                               .mirrored = info.mirrored };
     choose_steps(series, info.views, info.bands);
-    rotation *job = lmp_allocate(&series->host, sizeof *job);
+    rotation *job = lmpi_allocate(&series->host, sizeof *job);
     if (!job)
         return LMP_ERROR_MEMORY;
     *job = (rotation) { .table = table, .series = series, .error = error };
@@ -278,13 +279,13 @@ lmp_result lmp_preintegrated_brdf_series(const lmp_host *host, float error,
     if (result == LMP_OK)
         result = rotate_all(job);
     if (result != LMP_OK)
-        lmp_preintegrated_brdf_series_free(series);
-    lmp_release(&series->host, job->samples.basis);
-    lmp_release(&series->host, job);
+        lmpi_preintegrated_brdf_series_free(series);
+    lmpi_release(&series->host, job->samples.basis);
+    lmpi_release(&series->host, job);
     return result;
 }
 
-void lmp_preintegrated_brdf_series_free(brdf_series *series) {
-    lmp_release(&series->host, series->coefficients);
+void lmpi_preintegrated_brdf_series_free(brdf_series *series) {
+    lmpi_release(&series->host, series->coefficients);
     series->coefficients = NULL;
 }

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* brdf_slices.c - the slices of one half angle: values on a fine grid, thinned as far as cubic
- * splines keep them, then stored as the splines' coefficients. */
-#include "src/preintegrated/brdf_make.h"
+/* brdf_slices.c - makes the slices of one half angle: values on a fine grid, thinned as far as
+ * cubic splines reproduce them, then stored as the splines' coefficients. */
+#include "src/preintegrated/brdf_slices.h"
 
 #include "src/base/host.h"
+#include "src/preintegrated/brdf_rows.h"
+#include "src/preintegrated/brdf_thin.h"
 #include "src/preintegrated/spline.h"
 
 #include <string.h>
 
 /* --- one slice -------------------------------------------------------------------------------- */
 
-/* The spline's coefficients at the kept rows and columns, a column before the first and as many
- * after the last as a reading needs: [channel][row][column]. */
+/* Computes the spline's coefficients at the rows and columns kept, with a column before the first
+ * and as many after the last as a reading needs: [channel][row][column]. */
 static void to_coefficients(const brdf_grid *g, size_t *rows, size_t *columns) {
     const size_t f = g->column_factor;
     const size_t kept = g->mirrored ? (g->columns - 1) / f + 1 : g->columns / f;
@@ -20,24 +22,24 @@ static void to_coefficients(const brdf_grid *g, size_t *rows, size_t *columns) {
     for (size_t c = 0; c < 3; c++)
         for (size_t i = 0; i < *rows; i++) {
             const float *from = g->values + (c * g->rows + i * g->row_factor) * g->columns;
-            lmp_preintegrated_brdf_copy_around(g, from, -BRDF_WRAP * (ptrdiff_t)f,
-                                               kept + 2 * BRDF_WRAP, f, g->line);
-            lmp_spline_coefficients(g->line, kept + 2 * BRDF_WRAP, 1);
+            lmpi_preintegrated_brdf_copy_around(g, from, -BRDF_WRAP * (ptrdiff_t)f,
+                                                kept + 2 * BRDF_WRAP, f, g->line);
+            lmpi_spline_coefficients(g->line, kept + 2 * BRDF_WRAP, 1);
             memcpy(g->coefficients + (c * *rows + i) * *columns, g->line + BRDF_WRAP - 1,
                    *columns * sizeof *g->coefficients);
         }
     for (size_t c = 0; c < 3; c++)
-        lmp_spline_coefficients(g->coefficients + c * *rows * *columns, *rows, *columns);
+        lmpi_spline_coefficients(g->coefficients + c * *rows * *columns, *rows, *columns);
 }
 
-/* Where the rows of one half angle lie: s = BRDF_ROW_STEP (first + i). */
+/* The rows of one half angle: s = BRDF_ROW_STEP (first + i). */
 typedef struct row_range {
-    double low, high; /* s that readings reach */
+    double low, high; /* the range of s that readings reach */
     int first;
     size_t count;
 } row_range;
 
-/* Appends the slice to the column, without the rows no reading reaches. */
+/* Appends the slice to the column, without the rows that no reading reaches. */
 static void store(const brdf_grid *g, const row_range *range, brdf_column *column,
                   lmp_preintegrated_brdf_slice *slice) {
     size_t rows, columns;
@@ -50,7 +52,7 @@ static void store(const brdf_grid *g, const row_range *range, brdf_column *colum
     for (size_t c = 0; c < 3; c++)
         for (size_t i = (c * rows + before) * columns; i < (c * rows + after) * columns; i++)
             peak = brdf_larger(peak, fabsf(g->coefficients[i]));
-    const double full = g->mirrored ? LMP_PREINTEGRATED_PI : 2 * LMP_PREINTEGRATED_PI;
+    const double full = g->mirrored ? LMPI_PREINTEGRATED_PI : 2 * LMPI_PREINTEGRATED_PI;
     *slice = (lmp_preintegrated_brdf_slice) {
         .first = (uint32_t)column->texel_count,
         .rows = (uint32_t)(after - before),
@@ -72,16 +74,16 @@ static void store(const brdf_grid *g, const row_range *range, brdf_column *colum
 
 /* --- one half angle --------------------------------------------------------------------------- */
 
-/* Readings of the slice come from half angles up to the neighbors'. */
+/* Returns the rows of a slice, whose readings come from half angles up to the neighbors'. */
 static row_range range_of(const brdf_series *series, const int *caps, int count, int index) {
     const int below = index > 0 ? index - 1 : index, above = index + 1 < count ? index + 1 : index;
     const double least =
-        lmp_preintegrated_brdf_rim_of(series, lmp_preintegrated_brdf_angle_at(caps[below]));
+        lmpi_preintegrated_brdf_rim_of(series, lmpi_preintegrated_brdf_angle_at(caps[below]));
     const double most =
-        lmp_preintegrated_brdf_rim_of(series, lmp_preintegrated_brdf_angle_at(caps[above]));
-    row_range range = { .low = lmp_preintegrated_brdf_row_of(series, -most),
+        lmpi_preintegrated_brdf_rim_of(series, lmpi_preintegrated_brdf_angle_at(caps[above]));
+    row_range range = { .low = lmpi_preintegrated_brdf_row_of(series, -most),
                         .high =
-                            lmp_preintegrated_brdf_row_of(series, LMP_PREINTEGRATED_PI - least) };
+                            lmpi_preintegrated_brdf_row_of(series, LMPI_PREINTEGRATED_PI - least) };
     const int first = (int)floor(range.low / BRDF_ROW_STEP) - BRDF_THINNING - BRDF_MARGIN;
     const int last = (int)ceil(range.high / BRDF_ROW_STEP) + 2 * BRDF_THINNING + BRDF_MARGIN;
     range.first = first - (BRDF_THINNING + first % BRDF_THINNING) % BRDF_THINNING;
@@ -90,7 +92,7 @@ static row_range range_of(const brdf_series *series, const int *caps, int count,
     return range;
 }
 
-/* Texels at most, values of all views, and the longest line. */
+/* Sizes of memory: texels at most, values of all views, and the longest line. */
 typedef struct room {
     size_t texels, values, largest, line;
 } room;
@@ -119,55 +121,55 @@ static void store_all(const brdf_views *views, const row_range *range, float err
     for (size_t v = 0; v < views->count; v++) {
         g.values = values[v];
         g.columns = (size_t)views->columns[v];
-        peaks[v] = lmp_preintegrated_brdf_largest(&g);
-        floor_peak = fmaxf(floor_peak, (float)LMP_PREINTEGRATED_BRDF_FLOOR * peaks[v]);
+        peaks[v] = lmpi_preintegrated_brdf_largest(&g);
+        floor_peak = fmaxf(floor_peak, (float)LMPI_PREINTEGRATED_BRDF_FLOOR * peaks[v]);
     }
     for (size_t v = 0; v < views->count; v++) {
         g.values = values[v];
         g.columns = (size_t)views->columns[v];
-        lmp_preintegrated_brdf_thin(&g,
-                                    (float)BRDF_TOLERANCE * error * fmaxf(peaks[v], floor_peak));
+        lmpi_preintegrated_brdf_thin(&g,
+                                     (float)BRDF_TOLERANCE * error * fmaxf(peaks[v], floor_peak));
         store(&g, range, column, &column->slices[v]);
     }
 }
 
-lmp_result lmp_preintegrated_brdf_slices(const brdf_views *views, const int *caps, int count,
-                                         int index, float error, brdf_column *column) {
+lmp_result lmpi_preintegrated_brdf_slices(const brdf_views *views, const int *caps, int count,
+                                          int index, float error, brdf_column *column) {
     const brdf_series *series = views->series;
-    const double angle = lmp_preintegrated_brdf_angle_at(caps[index]);
+    const double angle = lmpi_preintegrated_brdf_angle_at(caps[index]);
     const row_range range = range_of(series, caps, count, index);
     const room need = room_for(views, range.count);
     float *values[BRDF_STEPS_MAX + 1];
     float *memory =
-        lmp_allocate(&series->host, (need.values + need.largest + need.line) * sizeof *memory);
-    double *g = lmp_allocate(&series->host, range.count * sizeof *g);
-    int16_t *texels = lmp_allocate(&series->host, need.texels * 3 * sizeof *texels);
+        lmpi_allocate(&series->host, (need.values + need.largest + need.line) * sizeof *memory);
+    double *g = lmpi_allocate(&series->host, range.count * sizeof *g);
+    int16_t *texels = lmpi_allocate(&series->host, need.texels * 3 * sizeof *texels);
     *column = (brdf_column) { .texels = texels };
-    column->slices = lmp_allocate(&series->host, views->count * sizeof *column->slices);
+    column->slices = lmpi_allocate(&series->host, views->count * sizeof *column->slices);
     lmp_result result = memory && g && texels && column->slices ? LMP_OK : LMP_ERROR_MEMORY;
     if (result == LMP_OK) {
         for (size_t i = 0; i < range.count; i++)
-            g[i] = lmp_preintegrated_brdf_x_of(series,
-                                               BRDF_ROW_STEP * (double)(range.first + (int)i)) +
-                   lmp_preintegrated_brdf_rim_of(series, angle);
+            g[i] = lmpi_preintegrated_brdf_x_of(series,
+                                                BRDF_ROW_STEP * (double)(range.first + (int)i)) +
+                   lmpi_preintegrated_brdf_rim_of(series, angle);
         float *next = memory + need.largest + need.line;
         for (size_t v = 0; v < views->count; v++) {
             values[v] = next;
             next += 3 * range.count * (size_t)views->columns[v];
         }
-        result = lmp_preintegrated_brdf_sum(views, angle, g, range.count, values);
+        result = lmpi_preintegrated_brdf_sum(views, angle, g, range.count, values);
     }
     if (result == LMP_OK)
         store_all(views, &range, error, values, memory, &need, column);
-    lmp_release(&series->host, memory);
-    lmp_release(&series->host, g);
+    lmpi_release(&series->host, memory);
+    lmpi_release(&series->host, g);
     if (result != LMP_OK)
-        lmp_preintegrated_brdf_column_free(series, column);
+        lmpi_preintegrated_brdf_column_free(series, column);
     return result;
 }
 
-void lmp_preintegrated_brdf_column_free(const brdf_series *series, brdf_column *column) {
-    lmp_release(&series->host, column->slices);
-    lmp_release(&series->host, column->texels);
+void lmpi_preintegrated_brdf_column_free(const brdf_series *series, brdf_column *column) {
+    lmpi_release(&series->host, column->slices);
+    lmpi_release(&series->host, column->texels);
     *column = (brdf_column) { 0 };
 }

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* brdf_thin.c - how many rows and columns of a slice's fine grid cubic splines can do without. */
-#include "src/preintegrated/brdf_make.h"
+/* brdf_thin.c - finds how many rows and columns of a slice's fine grid cubic splines can do
+ * without. */
+#include "src/preintegrated/brdf_thin.h"
 
 #include "src/preintegrated/spline.h"
 
 #include <string.h>
 
-void lmp_preintegrated_brdf_copy_around(const brdf_grid *g, const float *row, ptrdiff_t first,
-                                        size_t count, size_t step, float *to) {
+void lmpi_preintegrated_brdf_copy_around(const brdf_grid *g, const float *row, ptrdiff_t first,
+                                         size_t count, size_t step, float *to) {
     const ptrdiff_t columns = (ptrdiff_t)g->columns;
     const ptrdiff_t period = g->mirrored ? 2 * columns - 2 : columns;
     ptrdiff_t j = (first % period + period) % period;
@@ -18,17 +19,17 @@ void lmp_preintegrated_brdf_copy_around(const brdf_grid *g, const float *row, pt
     }
 }
 
-/* The largest difference between dropped values and the spline through the others, of `width`
- * series side by side; `skip` values at either end do not count. */
+/* Returns the largest difference between dropped values and the spline through the others, of
+ * `width` series side by side; `skip` values at either end do not count. */
 static float spline_error(const float *values, size_t count, size_t width, size_t factor,
                           float *kept_values, size_t skip) {
     const size_t kept = (count - 1) / factor + 1;
     float error = 0, w[4];
     for (size_t i = 0; i < kept; i++)
         memcpy(kept_values + i * width, values + i * factor * width, width * sizeof *values);
-    lmp_spline_coefficients(kept_values, kept, width);
+    lmpi_spline_coefficients(kept_values, kept, width);
     for (size_t phase = 1; phase < factor; phase++) {
-        lmp_spline_weights((float)phase / (float)factor, w);
+        lmpi_spline_weights((float)phase / (float)factor, w);
         for (size_t i = skip / factor; i + 2 < kept && i * factor + phase + skip < count; i++) {
             const float *c = kept_values + (i - 1) * width;
             const float *value = values + (i * factor + phase) * width;
@@ -42,7 +43,7 @@ static float spline_error(const float *values, size_t count, size_t width, size_
     return error;
 }
 
-bool lmp_preintegrated_brdf_rows_hold(const brdf_grid *g, size_t factor, float limit) {
+bool lmpi_preintegrated_brdf_rows_hold(const brdf_grid *g, size_t factor, float limit) {
     for (size_t c = 0; c < 3; c++)
         if (!(spline_error(g->values + c * g->rows * g->columns, g->rows, g->columns, factor,
                            g->coefficients, BRDF_MARGIN) <= limit))
@@ -50,7 +51,7 @@ bool lmp_preintegrated_brdf_rows_hold(const brdf_grid *g, size_t factor, float l
     return true;
 }
 
-/* Some of the rows tell: they are much closer than what they show. */
+/* Tests some of the rows, which suffice because rows lie much closer than the detail they show. */
 static bool columns_hold(const brdf_grid *g, size_t factor, float limit) {
     const size_t count = g->columns + 2 * BRDF_WRAP * factor;
     float *around = g->line, *line = around + count;
@@ -58,15 +59,15 @@ static bool columns_hold(const brdf_grid *g, size_t factor, float limit) {
         const float *values = g->values + row * g->columns;
         if (row % g->rows < BRDF_MARGIN || row % g->rows + BRDF_MARGIN >= g->rows)
             continue;
-        lmp_preintegrated_brdf_copy_around(g, values, -(ptrdiff_t)(BRDF_WRAP * factor), count, 1,
-                                           around);
+        lmpi_preintegrated_brdf_copy_around(g, values, -(ptrdiff_t)(BRDF_WRAP * factor), count, 1,
+                                            around);
         if (!(spline_error(around, count, 1, factor, line, BRDF_WRAP * factor) <= limit))
             return false;
     }
     return true;
 }
 
-float lmp_preintegrated_brdf_largest(const brdf_grid *g) {
+float lmpi_preintegrated_brdf_largest(const brdf_grid *g) {
     float peak = 0;
     for (size_t c = 0; c < 3; c++) {
         const float *values = g->values + (c * g->rows + BRDF_MARGIN) * g->columns;
@@ -76,12 +77,12 @@ float lmp_preintegrated_brdf_largest(const brdf_grid *g) {
     return peak;
 }
 
-void lmp_preintegrated_brdf_thin(brdf_grid *g, float limit) {
+void lmpi_preintegrated_brdf_thin(brdf_grid *g, float limit) {
     const size_t intervals = g->mirrored ? g->columns - 1 : g->columns / 2;
     g->row_factor = g->column_factor = 1;
     while (intervals / g->column_factor > 4 && columns_hold(g, 2 * g->column_factor, limit))
         g->column_factor *= 2;
     while (g->row_factor < BRDF_THINNING &&
-           lmp_preintegrated_brdf_rows_hold(g, 2 * g->row_factor, limit))
+           lmpi_preintegrated_brdf_rows_hold(g, 2 * g->row_factor, limit))
         g->row_factor *= 2;
 }

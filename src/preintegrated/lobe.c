@@ -2,25 +2,28 @@
 #include "src/preintegrated/lobe.h"
 
 #include "src/base/host.h"
+#include "src/preintegrated/lobe_fill.h"
+#include "src/preintegrated/lobe_plan.h"
 
 #include <string.h>
 
 #define BANDS_DEFAULT 10
 
 static lmp_result fill_task(size_t index, void *data) {
-    return lmp_preintegrated_lobe_fill(data, (uint32_t)(index / 2), (uint32_t)(index % 2));
+    return lmpi_preintegrated_lobe_fill(data, (uint32_t)(index / 2), (uint32_t)(index % 2));
 }
 
-bool lmp_preintegrated_lobe_valid(const lmp_preintegrated_lobe_info *info) {
+bool lmpi_preintegrated_lobe_valid(const lmp_preintegrated_lobe_info *info) {
     return info->bands >= 1 && info->bands <= LMP_BANDS_MAX && info->window >= LMP_WINDOW_NONE &&
-           info->window < LMP_WINDOWS && info->window_size >= 0 && info->window_size <= 1e6f &&
+           info->window < LMP_WINDOW_COUNT && info->window_size >= 0 && info->window_size <= 1e6f &&
            info->error >= LMP_PREINTEGRATED_LOBE_ERROR_MIN && info->error <= 0.1f;
 }
 
-lmp_result lmp_preintegrated_lobe_allocate(const lmp_host *host, const lmp_preintegrated_lobe *plan,
-                                           lmp_preintegrated_lobe **lobe) {
-    const lmp_host resolved = lmp_host_resolve(host);
-    *lobe = lmp_allocate(&resolved, sizeof *plan + plan->info.pair_count * 2 * sizeof(int16_t));
+lmp_result lmpi_preintegrated_lobe_allocate(const lmp_host *host,
+                                            const lmp_preintegrated_lobe *plan,
+                                            lmp_preintegrated_lobe **lobe) {
+    const lmp_host resolved = lmpi_host_resolve(host);
+    *lobe = lmpi_allocate(&resolved, sizeof *plan + plan->info.pair_count * 2 * sizeof(int16_t));
     if (!*lobe)
         return LMP_ERROR_MEMORY;
     memcpy(*lobe, plan, sizeof *plan);
@@ -33,16 +36,16 @@ lmp_result lmp_preintegrated_lobe_allocate(const lmp_host *host, const lmp_prein
 
 static lmp_result create_planned(const lmp_host *host, const lmp_preintegrated_lobe_info *info,
                                  lmp_preintegrated_lobe **lobe) {
-    const lmp_host resolved = lmp_host_resolve(host);
-    lmp_preintegrated_lobe *plan = lmp_allocate(&resolved, sizeof *plan);
+    const lmp_host resolved = lmpi_host_resolve(host);
+    lmp_preintegrated_lobe *plan = lmpi_allocate(&resolved, sizeof *plan);
     if (!plan)
         return LMP_ERROR_MEMORY;
     memset(plan, 0, sizeof *plan);
     plan->info = *info;
-    lmp_result result = lmp_preintegrated_lobe_plan(plan);
+    lmp_result result = lmpi_preintegrated_lobe_plan(plan);
     if (result == LMP_OK)
-        result = lmp_preintegrated_lobe_allocate(host, plan, lobe);
-    lmp_release(&resolved, plan);
+        result = lmpi_preintegrated_lobe_allocate(host, plan, lobe);
+    lmpi_release(&resolved, plan);
     return result;
 }
 
@@ -59,13 +62,13 @@ lmp_result lmp_preintegrated_lobe_create(const lmp_host *host,
         .window_size = desc->window_size,
         .error = desc->error == 0 ? LMP_PREINTEGRATED_LOBE_ERROR_DEFAULT : desc->error,
     };
-    if (!lmp_preintegrated_lobe_valid(&info))
+    if (!lmpi_preintegrated_lobe_valid(&info))
         return LMP_ERROR_ARGUMENT;
     lmp_result result = create_planned(host, &info, lobe);
     if (result != LMP_OK)
         return result;
     const size_t slices = 2 * (size_t)(*lobe)->info.cell_count;
-    result = lmp_host_run(&(*lobe)->host, 0, 1, slices, fill_task, *lobe);
+    result = lmpi_host_run(&(*lobe)->host, 0, 1, slices, fill_task, *lobe);
     if (result != LMP_OK) {
         lmp_preintegrated_lobe_destroy(*lobe);
         *lobe = NULL;
@@ -74,7 +77,7 @@ lmp_result lmp_preintegrated_lobe_create(const lmp_host *host,
 }
 
 void lmp_preintegrated_lobe_destroy(lmp_preintegrated_lobe *lobe) {
-    lmp_release_object(lobe);
+    lmpi_release_object(lobe);
 }
 
 lmp_preintegrated_lobe_info lmp_preintegrated_lobe_describe(const lmp_preintegrated_lobe *lobe) {

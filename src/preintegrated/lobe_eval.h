@@ -1,34 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* lobe_eval.h - reading a preintegrated lobe: once a surface where its exponent lies, then once a
- * light. */
+/* lobe_eval.h - reads a preintegrated lobe: finds once per surface where its exponent lies, then
+ * reads once per light. */
 #ifndef LAMPION_PREINTEGRATED_LOBE_EVAL_H
 #define LAMPION_PREINTEGRATED_LOBE_EVAL_H
 
-#include "shaders/preintegrated_lookup.h"
-
-#include <assert.h>
 #include <lampion/preintegrated.h>
 
-#define LMP_PREINTEGRATED_PI 3.14159265358979323846
-
-static_assert(LMP_LOOKUP_REMAP_COUNT == LMP_PREINTEGRATED_LOBE_REMAP_COUNT &&
-                  (int)LMP_LOOKUP_EXPONENT_MAX == (int)LMP_PREINTEGRATED_LOBE_EXPONENT_MAX,
-              "the remap is what the API says");
-
-/* Where an exponent lies. */
-typedef struct lmp_preintegrated_lobe_position {
-    uint32_t first, columns; /* of the cell, in pairs */
-    float fraction;          /* of the second slice */
+/* Where an exponent lies in a preintegrated lobe. */
+typedef struct lmpi_preintegrated_lobe_position {
+    uint32_t first, columns; /* of the cell; first counts pairs */
+    float fraction;          /* weight of the second slice */
     float density;           /* 1/step */
     float lobe_angle;        /* sr */
-} lmp_preintegrated_lobe_position;
+} lmpi_preintegrated_lobe_position;
 
-void lmp_preintegrated_lobe_lookup(const lmp_preintegrated_lobe_info *info, float exponent,
-                                   lmp_preintegrated_lobe_position *position);
+void lmpi_preintegrated_lobe_lookup(const lmp_preintegrated_lobe_info *info, float exponent,
+                                    lmpi_preintegrated_lobe_position *position);
 
-/* lmp_preintegrated_lobe_eval at a position; cosine in -1 … 1. */
-float lmp_preintegrated_lobe_at(const lmp_preintegrated_lobe_info *info,
-                                const lmp_preintegrated_lobe_position *position,
-                                float one_minus_cos, float cosine);
+/* Does lmp_preintegrated_lobe_eval at a position; cosine is in -1 … 1. */
+float lmpi_preintegrated_lobe_at(const lmp_preintegrated_lobe_info *info,
+                                 const lmpi_preintegrated_lobe_position *position,
+                                 float one_minus_cos, float cosine);
 
 #endif

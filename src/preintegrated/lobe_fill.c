@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lobe_fill.c - one slice of a preintegrated lobe through spherical harmonics: the sum over bands
  * at every node, then the coefficients of the cubic B-spline through the nodes. */
-#include "src/preintegrated/lobe.h"
+#include "src/preintegrated/lobe_fill.h"
 
 #include "src/base/host.h"
 #include "src/preintegrated/spline.h"
@@ -25,13 +25,13 @@ typedef struct slice_grid {
     float *values; /* rows * columns */
 } slice_grid;
 
-/* weight_l mean_l(a): the lobe's series term by term, averaged over the cap and times the two
- * solid angles. cos a = c: mean_l = R_l/R_0 = R_l (1 + c)/2 (light.h), which is even in a; so the
- * nodes past pi/2 are exact, too. */
+/* Computes weight_l mean_l(a), the lobe's series term by term, averaged over the cap and times the
+ * two solid angles. With cos a = c, mean_l = R_l/R_0 = R_l (1 + c)/2 (light.h), which is even in a;
+ * so the nodes past pi/2 are exact as well. */
 static void cap_weights(const slice_grid *grid, const float *series, double lobe_angle) {
     for (size_t i = 0; i < grid->rows; i++) {
-        const double half = sin((double)i * grid->step / 2), t = 2 * half * half;
-        const double angle = 2 * LMP_PREINTEGRATED_PI * t + lobe_angle;
+        const double half_sine = sin((double)i * grid->step / 2), t = 2 * half_sine * half_sine;
+        const double angle = 2 * LMPI_PREINTEGRATED_PI * t + lobe_angle;
         double r = 1, d = 0, plain = 0;
         for (int l = 0; l < grid->bands; l++) {
             if (l >= 2 && t <= 1) {
@@ -62,7 +62,7 @@ static void legendre(const slice_grid *grid) {
     }
 }
 
-/* values = cap × band. */
+/* Computes the matrix product values = cap × band. */
 static void sum_bands(const slice_grid *grid) {
     memset(grid->values, 0, grid->rows * grid->columns * sizeof(float));
     for (size_t i = 0; i < grid->rows; i++) {
@@ -91,14 +91,14 @@ static void store(const slice_grid *grid, const lmp_preintegrated_lobe_cell *cel
 
 static void lobe_series(const lmp_preintegrated_lobe_info *info, float exponent, float *series) {
     float weights[LMP_BANDS_MAX];
-    lmp_lobe_phong(info->bands, exponent, series);
-    lmp_sh_window(info->bands, info->window, info->window_size, weights);
+    lmp_lobe_make_phong(info->bands, exponent, series);
+    lmp_sh_make_window(info->bands, info->window, info->window_size, weights);
     for (int l = 0; l < info->bands; l++)
-        series[l] *= weights[l] * (float)((2 * l + 1) / (4 * LMP_PREINTEGRATED_PI));
+        series[l] *= weights[l] * (float)((2 * l + 1) / (4 * LMPI_PREINTEGRATED_PI));
 }
 
-lmp_result lmp_preintegrated_lobe_fill(lmp_preintegrated_lobe *lobe, uint32_t cell_index,
-                                       uint32_t side) {
+lmp_result lmpi_preintegrated_lobe_fill(lmp_preintegrated_lobe *lobe, uint32_t cell_index,
+                                        uint32_t side) {
     const lmp_preintegrated_lobe_cell *cell = &lobe->cells[cell_index];
     const float exponent = lobe->exponents[cell_index + side];
     slice_grid grid = { .bands = lobe->info.bands,
@@ -108,8 +108,8 @@ lmp_result lmp_preintegrated_lobe_fill(lmp_preintegrated_lobe *lobe, uint32_t ce
                             1 / (double)lmp_lookup_density(cell->scale, cell->offset, exponent) };
     const size_t bands = (size_t)grid.bands;
     float *memory =
-        lmp_allocate(&lobe->host, sizeof(float) * (bands * grid.columns + grid.rows * bands +
-                                                   grid.rows * grid.columns));
+        lmpi_allocate(&lobe->host, sizeof(float) * (bands * grid.columns + grid.rows * bands +
+                                                    grid.rows * grid.columns));
     if (!memory)
         return LMP_ERROR_MEMORY;
     grid.band = memory;
@@ -122,9 +122,9 @@ lmp_result lmp_preintegrated_lobe_fill(lmp_preintegrated_lobe *lobe, uint32_t ce
     legendre(&grid);
     sum_bands(&grid);
     for (size_t i = 0; i < grid.rows; i++)
-        lmp_spline_coefficients(grid.values + i * grid.columns, grid.columns, 1);
-    lmp_spline_coefficients(grid.values, grid.rows, grid.columns);
+        lmpi_spline_coefficients(grid.values + i * grid.columns, grid.columns, 1);
+    lmpi_spline_coefficients(grid.values, grid.rows, grid.columns);
     store(&grid, cell, lobe->coefficients + 2 * (size_t)cell->first + side);
-    lmp_release(&lobe->host, memory);
+    lmpi_release(&lobe->host, memory);
     return LMP_OK;
 }

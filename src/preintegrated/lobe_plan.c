@@ -13,7 +13,7 @@
  *
  * The constants were chosen by changing each and measuring the error (docs/preintegration.md).
  */
-#include "src/preintegrated/lobe.h"
+#include "src/preintegrated/lobe_plan.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,13 +22,13 @@
 #define TRUNCATED        12.0
 #define STEP_TRUNCATED   0.95 /* times 1/(bands + 1): the cap's solid angle adds a degree */
 #define STEP_SMOOTH      0.54 /* times the width */
-#define STEP_CUSP        0.02 /* to the power 1/e */
-#define SLICES_TRUNCATED 6.5  /* a unit of log e, times x/(x + TRUNCATED_KNEE) */
+#define STEP_CUSP        0.02 /* per unit of log e, times x/(x + TRUNCATED_KNEE) */
+#define SLICES_TRUNCATED 6.5  /* for few bands, which feel every exponent: 1 + this/bands² more */
 #define SLICES_FEW       16   /* more where few bands feel every exponent: 1 + this/bands² */
 #define TRUNCATED_KNEE   1.16
-#define SLICES           3.0   /* a unit of log e, of smooth lobes */
+#define SLICES           3.0   /* per unit of log e, of smooth lobes */
 #define SLICES_MIN       0.001 /* keeps the remap rising; 0.01 errs by 0.5 % at 10 bands */
-#define SLICES_CUSP      6.7   /* a unit of e at e = 1 */
+#define SLICES_CUSP      6.7   /* per unit of e at e = 1 */
 #define CUSP_FADE        1.2
 #define WIDTH_OFFSET     1.5
 
@@ -49,7 +49,8 @@ static float error_scale(const lmp_preintegrated_lobe_info *info, double power) 
     return (float)pow((double)info->error / (double)LMP_PREINTEGRATED_LOBE_ERROR_DEFAULT, power);
 }
 
-/* The slice coordinate at every entry: the integral of the density; returns the last slice. */
+/* Computes the slice coordinate at every entry, the integral of the density; returns the last
+ * slice. */
 static int plan_remap(lmp_preintegrated_lobe *plan) {
     double at[LMP_PREINTEGRATED_LOBE_REMAP_COUNT] = { 0 };
     const double fewer = (double)error_scale(&plan->info, -0.5);
@@ -65,8 +66,8 @@ static int plan_remap(lmp_preintegrated_lobe *plan) {
     return last;
 }
 
-/* The exponents whose slice coordinate is whole. */
-void lmp_preintegrated_lobe_exponents(lmp_preintegrated_lobe *plan) {
+/* Finds the exponents whose slice coordinate is an integer. */
+void lmpi_preintegrated_lobe_exponents(lmp_preintegrated_lobe *plan) {
     const int last = (int)plan->info.cell_count;
     int i = 0;
     for (int k = 0; k <= last; k++) {
@@ -95,30 +96,30 @@ static void plan_cell(lmp_preintegrated_lobe *plan, int k) {
                                                              : fmax(step_smooth, step_truncated)));
 }
 
-lmp_result lmp_preintegrated_lobe_plan(lmp_preintegrated_lobe *plan) {
+lmp_result lmpi_preintegrated_lobe_plan(lmp_preintegrated_lobe *plan) {
     const int last = plan_remap(plan);
     if (last > LOBE_CELLS_MAX)
         return LMP_ERROR_ARGUMENT;
     plan->info.cell_count = (uint32_t)last;
-    lmp_preintegrated_lobe_exponents(plan);
+    lmpi_preintegrated_lobe_exponents(plan);
     for (int k = 0; k < last; k++)
         plan_cell(plan, k);
-    lmp_preintegrated_lobe_layout(plan);
+    lmpi_preintegrated_lobe_layout(plan);
     return LMP_OK;
 }
 
-void lmp_preintegrated_lobe_layout(lmp_preintegrated_lobe *plan) {
+void lmpi_preintegrated_lobe_layout(lmp_preintegrated_lobe *plan) {
     lmp_preintegrated_lobe_info *info = &plan->info;
     info->width2 = 1 / ((float)info->bands * (float)info->bands);
     uint32_t pairs = 0;
     for (uint32_t k = 0; k < info->cell_count; k++) {
         lmp_preintegrated_lobe_cell *cell = &plan->cells[k];
-        /* A little finer than finest: no rounding of an angle leads outside. */
+        /* A little finer than finest, so that no rounding of an angle leads outside. */
         const double finest =
             (double)lmp_lookup_density(cell->scale, cell->offset, plan->exponents[k + 1]) * 1.00001;
         cell->first = pairs;
-        cell->rows = (uint32_t)(finest * LMP_PREINTEGRATED_PI / 2) + 4;
-        cell->columns = (uint32_t)(finest * LMP_PREINTEGRATED_PI) + 4;
+        cell->rows = (uint32_t)(finest * LMPI_PREINTEGRATED_PI / 2) + 4;
+        cell->columns = (uint32_t)(finest * LMPI_PREINTEGRATED_PI) + 4;
         pairs += cell->rows * cell->columns;
     }
     info->pair_count = pairs;

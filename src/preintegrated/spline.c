@@ -3,13 +3,13 @@
 
 static const float pole = -0.26794919243f;
 
-/* to += factor * from, of rows. */
+/* Adds factor * from to a row. */
 static void add_scaled(float *restrict to, const float *restrict from, size_t width, float factor) {
     for (size_t j = 0; j < width; j++)
         to[j] += factor * from[j];
 }
 
-/* The far end as the anticausal half starts from it. */
+/* Sets the far end from which the anticausal half starts. */
 static void begin_back(float *restrict last, const float *restrict before, size_t width) {
     for (size_t j = 0; j < width; j++)
         last[j] = pole / (pole * pole - 1) * (last[j] + pole * before[j]);
@@ -20,7 +20,7 @@ static void step_back(float *restrict row, const float *restrict next, size_t wi
         row[j] = pole * (next[j] - row[j]);
 }
 
-/* The same of one series, without the cost of loops of one step. */
+/* Computes the coefficients of one series, without the cost of inner loops of one step. */
 static void single_coefficients(float *values, size_t count) {
     float power = pole, now = values[0];
     for (size_t k = 1; k < count && k < 20; k++, power *= pole)
@@ -35,7 +35,7 @@ static void single_coefficients(float *values, size_t count) {
         values[k] *= 6;
 }
 
-void lmp_spline_coefficients(float *values, size_t count, size_t width) {
+void lmpi_spline_coefficients(float *values, size_t count, size_t width) {
     if (width == 1) {
         single_coefficients(values, count);
         return;

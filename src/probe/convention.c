@@ -9,7 +9,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* A convention's basis function in parts of this library's, and so its coefficient. */
+/* Returns a convention's basis function relative to this library's, and so its coefficient. */
 static double factor(const lmp_probe_convention *convention, int l, int m) {
     double value = convention->sign == LMP_PROBE_SIGN_POSITIVE && m % 2 != 0 ? -1 : 1;
     if (convention->normalization == LMP_PROBE_N3D)
@@ -21,7 +21,7 @@ static double factor(const lmp_probe_convention *convention, int l, int m) {
 
 /* --- axes ------------------------------------------------------------------------------------- */
 
-/* Rows: the axes of a convention in this library's world. */
+/* Fills in rows: the axes of a convention in this library's world. */
 static void axes_of(const lmp_probe_convention *convention, int axes[3][3]) {
     for (int row = 0; row < 3; row++) {
         const int axis = convention->axes[row] ? convention->axes[row] : row + 1;
@@ -37,7 +37,7 @@ static int determinant(int m[3][3]) {
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* Y_lm(x, y, -z) = (-1)^(l+m) Y_lm(x, y, z). */
+/* Mirrors z by Y_lm(x, y, -z) = (-1)^(l+m) Y_lm(x, y, z). */
 static void mirror_z(int bands, float *sh) {
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++)
@@ -45,7 +45,7 @@ static void mirror_z(int bands, float *sh) {
                 sh[LMP_SH_INDEX(l, m)] = -sh[LMP_SH_INDEX(l, m)];
 }
 
-/* f(M w) of f(w): M = a rotation, or one times a reflection of z. */
+/* Turns f(w) into f(M w), with M a rotation, or one times a reflection of z. */
 static void change_axes(int bands, int m[3][3], float *sh) {
     static const int unchanged[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
     const bool mirrored = determinant(m) < 0;
@@ -58,7 +58,7 @@ static void change_axes(int bands, int m[3][3], float *sh) {
         for (int column = 0; column < 3; column++)
             inverse[3 * column + row] =
                 (float)(mirrored && column == 2 ? -m[row][column] : m[row][column]);
-    lmp_sh_rotation_from_matrix(bands, inverse, matrices);
+    lmp_sh_make_rotation_from_matrix(bands, inverse, matrices);
     lmp_sh_rotate(bands, matrices, sh, rotated);
     memcpy(sh, rotated, LMP_SH_COUNT(bands) * sizeof *sh);
     if (mirrored)
@@ -69,9 +69,9 @@ static void change_axes(int bands, int m[3][3], float *sh) {
 
 void lmp_probe_convert(int bands, const lmp_probe_convention *from, const lmp_probe_convention *to,
                        const float *sh, float *converted) {
-    assert(lmp_is_bands(bands));
-    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), converted, LMP_SH_COUNT(bands)));
-    int a[3][3], b[3][3], change[3][3] = { { 0 } }; /* from's axes by to's */
+    assert(lmpi_is_bands(bands));
+    assert(lmpi_are_apart(sh, LMP_SH_COUNT(bands), converted, LMP_SH_COUNT(bands)));
+    int a[3][3], b[3][3], change[3][3] = { { 0 } }; /* the change has from's axes by to's */
     axes_of(from, a);
     axes_of(to, b);
     for (int row = 0; row < 3; row++)
@@ -93,7 +93,7 @@ void lmp_probe_convert(int bands, const lmp_probe_convention *from, const lmp_pr
 static bool agrees(int bands, const lmp_probe_convention *convention, const float *ours,
                    const float *theirs, float tolerance) {
     double largest = 0;
-    /* Not by fmax: gcc 12 for AArch64 fails in the vectors that it makes of it. */
+    /* Without fmax, because gcc 12 for AArch64 fails on the vectors that it makes of it. */
     for (size_t i = 0; i < LMP_SH_COUNT(bands); i++) {
         const double size = fabs((double)theirs[i]);
         largest = size > largest ? size : largest;
@@ -108,7 +108,7 @@ static bool agrees(int bands, const lmp_probe_convention *convention, const floa
     return true;
 }
 
-/* Sign and normalization that turn coefficients in axes that agree into theirs. */
+/* Finds sign and normalization that turn ours into theirs, where the axes agree. */
 static bool recognize_basis(int bands, const float *ours, const float *theirs, float tolerance,
                             lmp_probe_convention *guess) {
     for (int sign = 0; sign <= LMP_PROBE_SIGN_POSITIVE; sign++)
@@ -121,7 +121,7 @@ static bool recognize_basis(int bands, const float *ours, const float *theirs, f
     return false;
 }
 
-/* Axes number 0 … 47, the library's own first. */
+/* Returns axes number 0 … 47; the library's own come first. */
 static lmp_probe_convention axes_number(int number) {
     static const signed char orders[6][3] = { { 1, 2, 3 }, { 1, 3, 2 }, { 2, 1, 3 },
                                               { 2, 3, 1 }, { 3, 1, 2 }, { 3, 2, 1 } };
@@ -135,7 +135,7 @@ static lmp_probe_convention axes_number(int number) {
 
 bool lmp_probe_recognize(int bands, float tolerance, const float *ours, const float *theirs,
                          lmp_probe_convention *convention) {
-    assert(lmp_is_bands(bands) && tolerance >= 0);
+    assert(lmpi_is_bands(bands) && tolerance >= 0);
     const lmp_probe_convention own = { 0 };
     float moved[LMP_SH_COUNT(LMP_PROBE_AXES_BANDS_MAX)];
     lmp_probe_convention guess = own;

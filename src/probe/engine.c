@@ -3,8 +3,9 @@
 
 #include <lampion/probe.h>
 
-/* Irradiance over pi as a polynomial of a normal: A_l / pi times the factors of Y_lm (Sloan 2008,
- * appendix A2; the table of Filament's IndirectLight.h, and Unity's SphericalHarmonicMath). */
+/* Factors of irradiance over pi as a polynomial of a normal: A_l / pi times the factors of Y_lm
+ * (Sloan 2008, appendix A2; the table of Filament's IndirectLight.h, and Unity's
+ * SphericalHarmonicMath). */
 #define POLYNOMIAL                                                                                 \
     {                                                                                              \
         0.282094792f, -0.325735008f, 0.325735008f, -0.325735008f, 0.273137108f, -0.273137108f,     \
@@ -14,8 +15,8 @@
 #define EACH(factor)                                                                               \
     { factor, factor, factor, factor, factor, factor, factor, factor, factor }
 
-/* docs/probes.md has the source of each row. */
-static const lmp_probe_format formats[LMP_PROBE_ENGINES] = {
+/* The formats of the engines; docs/probes.md has the source of each row. */
+static const lmp_probe_format formats[LMP_PROBE_ENGINE_COUNT] = {
     [LMP_PROBE_UNITY] = { "unity", { .axes = { -1, 2, 3 } }, 1, false, POLYNOMIAL },
     [LMP_PROBE_UNREAL] = { "unreal", { .axes = { 1, 3, 2 } }, 100, false, EACH(1) },
     [LMP_PROBE_GODOT] = { "godot",
@@ -26,8 +27,8 @@ static const lmp_probe_format formats[LMP_PROBE_ENGINES] = {
     [LMP_PROBE_FILAMENT] = { "filament", { .sign = 0 }, 1, true, POLYNOMIAL },
 };
 
-const lmp_probe_format *lmp_probe_format_of(lmp_probe_engine engine) {
-    assert((unsigned)engine < LMP_PROBE_ENGINES);
+const lmp_probe_format *lmp_probe_engine_format(lmp_probe_engine engine) {
+    assert((unsigned)engine < LMP_PROBE_ENGINE_COUNT);
     return &formats[engine];
 }
 
@@ -35,7 +36,7 @@ void lmp_probe_export(int bands, const lmp_probe_format *format, const float *sh
     enum { BANDS = 3, COUNT = BANDS * BANDS };
     static const lmp_probe_convention ours = { 0 };
     assert(bands >= BANDS && bands <= LMP_BANDS_MAX);
-    assert(lmp_are_apart(sh, 3 * LMP_SH_COUNT(bands), values, 3 * COUNT));
+    assert(lmpi_are_apart(sh, 3 * LMP_SH_COUNT(bands), values, 3 * COUNT));
     for (size_t c = 0; c < 3; c++) {
         float converted[COUNT];
         lmp_probe_convert(BANDS, &ours, &format->convention, sh + c * LMP_SH_COUNT(bands),

@@ -2,8 +2,8 @@
 /* fit.c - coefficients from scattered samples by least squares.
  *
  * The normal equations are summed and solved in double from values in float: the condition number
- * may reach 1e7 before digits of the values are lost. A sphere that is sampled at all is far from
- * that; what is not is refused. */
+ * may reach 1e7 before digits of the values are lost. Samples spread over a sphere stay far below
+ * that; others are refused. */
 #include "src/base/element.h"
 #include "src/base/host.h"
 
@@ -12,26 +12,27 @@
 #include <math.h>
 #include <string.h>
 
-/* A sample costs bands⁴ / 2 multiplications, up to half a million. */
+/* Samples between two reports of progress: each costs bands⁴ / 2 multiplications, up to half a
+ * million. */
 enum { SAMPLES_A_REPORT = 64 };
 
-/* Below this part of the largest pivot a coefficient counts as undetermined. */
+/* The fraction of the largest pivot below which a coefficient counts as undetermined. */
 static const double pivot_least = 1e-10;
 
 typedef struct normal_equations {
     size_t count;   /* coefficients */
-    double *matrix; /* count rows; the lower triangle */
-    double *right;  /* right side */
+    double *matrix; /* count rows, of which the lower triangle is used */
+    double *right;  /* right-hand side */
 } normal_equations;
 
-/* Adds a sample; false where a number of it is not finite or the weight is negative. */
+/* Adds a sample; returns false if one of its numbers is not finite or its weight is negative. */
 static bool add_sample(normal_equations *equations, int bands, const lmp_probe_samples *samples,
                        size_t i, float *basis) {
-    const lmp_vec3 w = lmp_vec3_element(&samples->directions, i);
-    const double value = (double)lmp_element(samples->values.at, samples->values.stride, i);
-    const double weight = samples->weights.at
-                              ? (double)lmp_element(samples->weights.at, samples->weights.stride, i)
-                              : 1;
+    const lmp_vec3 w = lmpi_vec3_element(&samples->directions, i);
+    const double value = (double)lmpi_element(samples->values.at, samples->values.stride, i);
+    const double weight =
+        samples->weights.at ? (double)lmpi_element(samples->weights.at, samples->weights.stride, i)
+                            : 1;
     if (!isfinite(w.x) || !isfinite(w.y) || !isfinite(w.z) || !isfinite(value) ||
         !isfinite(weight) || weight < 0)
         return false;
@@ -46,8 +47,7 @@ static bool add_sample(normal_equations *equations, int bands, const lmp_probe_s
     return true;
 }
 
-/* In place A = L Lᵀ (Cholesky); false where a pivot is lost in the rounding of what it came from.
- */
+/* Factorizes in place A = L Lᵀ (Cholesky); returns false if a pivot is lost in rounding. */
 static bool factorize(normal_equations *equations) {
     const size_t n = equations->count;
     double *a = equations->matrix, largest = 0;
@@ -91,7 +91,7 @@ static lmp_result add_samples(const lmp_host *host, normal_equations *equations,
     lmp_result result = LMP_OK;
     for (size_t i = 0; i < samples->count && result == LMP_OK; i++) {
         if (i % SAMPLES_A_REPORT == 0)
-            result = lmp_host_report(host, (double)i / (double)samples->count);
+            result = lmpi_host_report(host, (double)i / (double)samples->count);
         if (!add_sample(equations, bands, samples, i, basis))
             return LMP_ERROR_ARGUMENT;
     }
@@ -112,21 +112,21 @@ static lmp_result fit(const lmp_host *host, normal_equations *equations, int ban
     if (!factorize(equations))
         return LMP_ERROR_ARGUMENT;
     solve(equations, sh);
-    return lmp_host_report(host, 1);
+    return lmpi_host_report(host, 1);
 }
 
 lmp_result lmp_probe_fit(const lmp_host *host, int bands, float smoothness,
                          const lmp_probe_samples *samples, float *sh) {
     if (bands < 1 || bands > LMP_PROBE_FIT_BANDS_MAX || !(smoothness >= 0 && isfinite(smoothness)))
         return LMP_ERROR_ARGUMENT;
-    const lmp_host resolved = lmp_host_resolve(host);
+    const lmp_host resolved = lmpi_host_resolve(host);
     const size_t count = LMP_SH_COUNT(bands), size = count * (count + 1) * sizeof(double);
-    normal_equations equations = { .count = count, .matrix = lmp_allocate(&resolved, size) };
+    normal_equations equations = { .count = count, .matrix = lmpi_allocate(&resolved, size) };
     if (!equations.matrix)
         return LMP_ERROR_MEMORY;
     memset(equations.matrix, 0, size);
     equations.right = equations.matrix + count * count;
     const lmp_result result = fit(&resolved, &equations, bands, (double)smoothness, samples, sh);
-    lmp_release(&resolved, equations.matrix);
+    lmpi_release(&resolved, equations.matrix);
     return result;
 }

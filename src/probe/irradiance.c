@@ -1,36 +1,38 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/base/precondition.h"
 #include "src/kernels/batch.h"
+#include "src/kernels/dispatch.h"
 
 #include <lampion/probe.h>
 
 void lmp_probe_irradiance_n(int bands, const float *sh, lmp_vec3_array normals, size_t count,
-                            lmp_rgb *rgb) {
-    assert(lmp_is_bands(bands) && lmp_are_unit(normals, count));
+                            lmp_rgb_array rgb) {
+    assert(lmpi_is_bands(bands) && lmpi_are_unit(normals, count));
+    assert(lmpi_is_rgb_array(rgb));
     const float *const planes[3] = { sh, sh + LMP_SH_COUNT(bands), sh + 2 * LMP_SH_COUNT(bands) };
-    const lmp_kernels *kernels = lmp_kernels_get();
-    lmp_batch_room room;
+    const lmpi_kernels *kernels = lmpi_kernels_get();
+    lmpi_batch_room room;
     float lambda[LMP_BANDS_MAX];
-    lmp_lobe_diffuse(bands, lambda);
-    for (size_t first = 0; first < count; first += LMP_BATCH) {
-        const size_t n = lmp_batch_count(count, first);
-        const lmp_kernel_vec3 at = lmp_batch_vectors(&normals, first, n, lmp_batch_in(&room));
-        const lmp_kernel_out out = lmp_batch_out(&rgb->r, 3, count, 0, 0, first);
-        kernels->reconstruct(bands, lambda, NULL, planes, &at, n, &out);
+    lmp_lobe_make_diffuse(bands, lambda);
+    for (size_t first = 0; first < count; first += LMPI_BATCH) {
+        const size_t n = lmpi_batch_count(count, first);
+        const lmpi_kernel_vec3 at = lmpi_batch_vectors(&normals, first, n, lmpi_batch_in(&room));
+        const lmpi_kernel_out out = lmpi_batch_out(rgb.at, 3, count, 0, rgb.stride, first);
+        kernels->sh.reconstruct(bands, lambda, NULL, planes, &at, n, &out);
     }
 }
 
 lmp_rgb lmp_probe_irradiance(int bands, const float *sh, lmp_vec3 normal) {
     lmp_rgb rgb;
-    lmp_probe_irradiance_n(bands, sh, lmp_vec3_array_same(&normal), 1, &rgb);
+    lmp_probe_irradiance_n(bands, sh, lmp_vec3_array_same(&normal), 1, lmp_rgb_array_of(&rgb));
     return rgb;
 }
 
-void lmp_probe_constants_of(int bands, float scale, const float *sh,
-                            lmp_probe_constants *constants) {
+void lmp_probe_make_constants(int bands, float scale, const float *sh,
+                              lmp_probe_constants *constants) {
     assert(bands >= 3 && bands <= LMP_BANDS_MAX && isfinite(scale));
     float lambda[3];
-    lmp_lobe_diffuse(3, lambda);
+    lmp_lobe_make_diffuse(3, lambda);
     /* factors of Y_1m and Y_2m as polynomials (Sloan 2008, appendix A2) */
     const float y0 = 0.282094792f, y1 = 0.488602512f, y2 = 1.09254843f;
     const float y20 = 0.315391565f, y22 = 0.546274215f;

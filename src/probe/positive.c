@@ -10,7 +10,7 @@ static const double pi = 3.14159265358979323846;
 
 /* --- three bands: a quadratic polynomial on the sphere ---------------------------------------- */
 
-/* f(n) = constant + linear·n + n·A n, the last without trace. */
+/* f(n) = constant + linear·n + n·A n, where A has no trace. */
 typedef struct quadratic {
     double constant, linear[3], a[3][3];
 } quadratic;
@@ -31,7 +31,7 @@ static quadratic quadratic_of(int bands, const float *sh) {
     };
 }
 
-/* Rotates the axes p and q so that a[p][q] = 0 (Jacobi); linear is rotated along. */
+/* Rotates the axes p and q so that a[p][q] = 0 (Jacobi), and linear with them. */
 static void annihilate(quadratic *f, int p, int q) {
     if (f->a[p][q] == 0)
         return;
@@ -53,7 +53,8 @@ static void annihilate(quadratic *f, int p, int q) {
     f->linear[q] = s * lp + c * lq;
 }
 
-/* |n| - 1 of the stationary point n = -linear/2 / (A - lambda), lambda below all eigenvalues. */
+/* Returns |n| - 1 of the stationary point n = -linear/2 / (A - lambda), with lambda below all
+ * eigenvalues. */
 static double excess(const quadratic *f, double lambda) {
     double sum = 0;
     for (int k = 0; k < 3; k++) {
@@ -63,9 +64,9 @@ static double excess(const quadratic *f, double lambda) {
     return sqrt(sum) - 1;
 }
 
-/* The least value on the sphere: by Lagrange (A - lambda) n = -linear/2 with |n| = 1, and the least
- * of all such points has lambda at or below the least eigenvalue. There the value is constant +
- * linear·n/2 + lambda. */
+/* Returns the least value on the sphere. By Lagrange, (A - lambda) n = -linear/2 with |n| = 1; of
+ * all such points the least has lambda at or below the least eigenvalue, and there the value is
+ * constant + linear·n/2 + lambda. */
 static double quadratic_minimum(quadratic f) {
     for (int sweep = 0; sweep < 12; sweep++)
         for (int p = 0; p < 2; p++)
@@ -119,14 +120,14 @@ static bool positive_on_grid(int bands, const float *windowed) {
     return true;
 }
 
-/* Under the window, of functions whose mean is positive. */
-static bool all_positive(int bands, const float *sh, int planes, const float *weights) {
-    for (int plane = 0; plane < planes; plane++) {
-        const float *f = sh + (size_t)plane * LMP_SH_COUNT(bands);
+/* Whether all functions whose mean is positive stay positive under the window. */
+static bool all_positive(int bands, const float *sh, size_t planes, const float *weights) {
+    for (size_t plane = 0; plane < planes; plane++) {
+        const float *f = sh + plane * LMP_SH_COUNT(bands);
         float windowed[LMP_SH_COUNT(LMP_PROBE_POSITIVE_BANDS_MAX)];
         if (!(f[0] > 0))
             continue;
-        lmp_sh_window_apply(bands, weights, f, windowed);
+        lmp_sh_apply_window(bands, weights, f, windowed);
         if (bands <= 3 ? lmp_probe_minimum(bands, windowed) < 0
                        : !positive_on_grid(bands, windowed))
             return false;
@@ -134,10 +135,10 @@ static bool all_positive(int bands, const float *sh, int planes, const float *we
     return true;
 }
 
-void lmp_probe_window_positive(int bands, const float *sh, int planes, float *weights) {
+void lmp_probe_make_positive_window(int bands, const float *sh, size_t planes, float *weights) {
     assert(bands >= 1 && bands <= LMP_PROBE_POSITIVE_BANDS_MAX);
     assert(planes >= 1);
-    assert(lmp_are_apart(sh, (size_t)planes * LMP_SH_COUNT(bands), weights, (size_t)bands));
+    assert(lmpi_are_apart(sh, planes * LMP_SH_COUNT(bands), weights, (size_t)bands));
     set_weights(bands, 0, weights);
     if (all_positive(bands, sh, planes, weights))
         return;

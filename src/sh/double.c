@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The basis in double. Its recurrences are those of tables.h, whose floats would spoil it: the
- * factors are found where they are used, by roots and quotients that IEEE 754 rounds alike on every
- * machine. */
+/* double.c - the basis in double. Its recurrences are those of tables.h, whose floats would spoil
+ * it: factors are computed where they are used, by roots and quotients that IEEE 754 rounds alike
+ * on every machine. */
 #include "src/base/precondition.h"
+#include "src/sh/column.h"
 
 #include <lampion/sh.h>
 
@@ -10,7 +11,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* q[l] = q_l^m(z) for l = m … bands-1, from q_m^m = first. */
+/* Computes q[l] = q_l^m(z) for l = m … bands-1, from q_m^m = first. */
 static void column(int bands, int m, double z, double first, double *q) {
     const double mm = (double)m * m;
     double root = 0; /* sqrt(((l-1)² - m²) / (4 (l-1)² - 1)) */
@@ -23,12 +24,7 @@ static void column(int bands, int m, double z, double first, double *q) {
     }
 }
 
-/* q_(m+1)^(m+1) from q_m^m = first. */
-static double next_first(int m, double first) {
-    return -first * sqrt(m == 0 ? 3 : (2 * m + 3) / (2.0 * m + 2));
-}
-
-/* dq_l^m/dz = this times q_l^(m+1). */
+/* Returns the factor of dq_l^m/dz = factor q_l^(m+1). */
 static double slope_factor(int l, int m) {
     return -sqrt((l - m) * (l + m + 1.0) * (m == 0 ? 0.5 : 1));
 }
@@ -42,18 +38,18 @@ static void store_gradient(const double w[3], const double g[3], size_t plane, d
 
 void lmp_sh_eval_gradient_double(int bands, const double direction[3], double *sh,
                                  double *gradient) {
-    assert(lmp_is_bands(bands) && lmp_is_unit_double(direction));
-    assert(!gradient || lmp_are_bytes_apart(sh, LMP_SH_COUNT(bands) * sizeof *sh, gradient,
-                                            3 * LMP_SH_COUNT(bands) * sizeof *gradient));
+    assert(lmpi_is_bands(bands) && lmpi_is_unit_double(direction));
+    assert(!gradient || lmpi_are_bytes_apart(sh, LMP_SH_COUNT(bands) * sizeof *sh, gradient,
+                                             3 * LMP_SH_COUNT(bands) * sizeof *gradient));
     const double *w = direction;
     const size_t plane = LMP_SH_COUNT(bands);
     double columns[2][LMP_BANDS_MAX + 1] = { { 0 } }, first = sqrt(1 / (4 * pi));
-    double c = 1, s = 0, c_below = 0, s_below = 0; /* (x + iy)^m and ^(m-1) */
+    double c = 1, s = 0, c_below = 0, s_below = 0; /* (x + iy)^m and (x + iy)^(m-1) */
     column(bands, 0, w[2], first, columns[0]);
     for (int m = 0; m < bands; m++) {
         const double *q = columns[m % 2];
         double *above = columns[(m + 1) % 2]; /* q_l^(m+1), 0 at l = m */
-        first = next_first(m, first);
+        first = lmpi_sh_next_diagonal(m, first);
         if (m + 1 < bands)
             column(bands, m + 1, w[2], first, above);
         above[m] = 0;
@@ -82,14 +78,15 @@ void lmp_sh_eval_double(int bands, const double direction[3], double *sh) {
 
 /* --- second derivatives ----------------------------------------------------------------------- */
 
-/* Those of the polynomial p = q_l^m(z) {C_m, S_m}, and its first: what one coefficient needs. */
+/* The first and second derivatives of the polynomial p = q_l^m(z) {C_m, S_m}, which one coefficient
+ * needs. */
 typedef struct slopes {
     double first[3];     /* x, y, z */
     double second[3][3]; /* symmetric */
 } slopes;
 
-/* The derivatives of p(v / |v|) at the unit vector w: with P = 1 - w w^T and g' = P g,
- * P H P - (g·w) P - g' w^T - w g'^T. */
+/* Stores the second derivatives of p(v / |v|) at the unit vector w: with P = 1 - w w^T and g' = P
+ * g, they are P H P - (g·w) P - g' w^T - w g'^T. */
 static void store_hessian(const double w[3], const slopes *p, size_t plane, double *hessian) {
     const double *g = p->first;
     const double along = g[0] * w[0] + g[1] * w[1] + g[2] * w[2];
@@ -107,7 +104,8 @@ static void store_hessian(const double w[3], const slopes *p, size_t plane, doub
         }
 }
 
-/* The polynomial q(z) A(x, y), A harmonic: A_yy = -A_xx. q holds its first two derivatives too. */
+/* Computes the derivatives of the polynomial q(z) A(x, y), A harmonic: A_yy = -A_xx. q holds its
+ * first two derivatives too. */
 static slopes slopes_of(const double q[3], double a, double a_x, double a_y, double a_xx,
                         double a_xy) {
     return (slopes) { { q[0] * a_x, q[0] * a_y, q[1] * a },
@@ -117,19 +115,19 @@ static slopes slopes_of(const double q[3], double a, double a_x, double a_y, dou
 }
 
 void lmp_sh_eval_hessian_double(int bands, const double direction[3], double *hessian) {
-    assert(lmp_is_bands(bands) && lmp_is_unit_double(direction));
+    assert(lmpi_is_bands(bands) && lmpi_is_unit_double(direction));
     const double *w = direction;
     const size_t plane = LMP_SH_COUNT(bands);
     double columns[3][LMP_BANDS_MAX] = { { 0 } }, first = sqrt(1 / (4 * pi));
-    double c[3] = { 1, 0, 0 }, s[3] = { 0, 0, 0 }; /* (x + iy)^m, ^(m-1), ^(m-2) */
+    double c[3] = { 1, 0, 0 }, s[3] = { 0, 0, 0 }; /* (x + iy)^m, (x + iy)^(m-1), (x + iy)^(m-2) */
     column(bands, 0, w[2], first, columns[0]);
-    first = next_first(0, first);
+    first = lmpi_sh_next_diagonal(0, first);
     if (bands > 1)
         column(bands, 1, w[2], first, columns[1]);
     for (int m = 0; m < bands; m++) {
         const double *q = columns[m % 3], *above = columns[(m + 1) % 3];
         double *twice = columns[(m + 2) % 3];
-        first = next_first(m + 1, first);
+        first = lmpi_sh_next_diagonal(m + 1, first);
         if (m + 2 < bands)
             column(bands, m + 2, w[2], first, twice);
         const double one = m, two = (double)m * (m - 1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/kernels/euler.h"
 
-static void multiples(int bands, const double unit[2], lmp_euler_angle *angle) {
+static void multiples(int bands, const double unit[2], lmpi_euler_angle *angle) {
     double c = 1, s = 0;
     for (int m = 0; m < bands; m++) {
         const double next = c * unit[0] - s * unit[1];
@@ -12,7 +12,7 @@ static void multiples(int bands, const double unit[2], lmp_euler_angle *angle) {
     }
 }
 
-void lmp_euler_angles_of(int bands, const lmp_euler *euler, lmp_euler_angles *angles) {
+void lmpi_euler_angles_of(int bands, const lmpi_euler *euler, lmpi_euler_angles *angles) {
     multiples(bands, euler->first, &angles->first);
     multiples(bands, euler->middle, &angles->middle);
     multiples(bands, euler->last, &angles->last);

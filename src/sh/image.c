@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* image.c - images of the surroundings onto coefficients: latitude-longitude and cube maps.
+/* image.c - projects images of the surroundings, latitude-longitude and cube maps.
  *
  * Texels go through a kernel in runs of a row, a few orders m a pass, and what a run adds is summed
- * in double, so that no number of texels loses digits. Where a run's texels are is found once for
- * all rows or faces that share it. */
+ * in double, so that no number of texels loses digits. The positions of a run's texels are computed
+ * once for all rows or faces that share them. */
 #include "src/base/half.h"
 #include "src/base/precondition.h"
-#include "src/kernels/kernels.h"
+#include "src/kernels/dispatch.h"
 
 #include <lampion/sh.h>
 
@@ -15,7 +15,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { RUN = LMP_KERNEL_TEXELS };
+enum { RUN = LMPI_KERNEL_TEXELS };
 
 /* --- texels ----------------------------------------------------------------------------------- */
 
@@ -41,13 +41,13 @@ static grid grid_of(lmp_texel texel, int width, int channels, size_t row_stride,
 
 /* --- a pass ----------------------------------------------------------------------------------- */
 
-/* What is projected now: orders m … m+orders-1 of a few channels, and a run of texels. */
+/* What a pass projects: orders m … m+orders-1 of a few channels, and a run of texels. */
 typedef struct pass {
-    const lmp_kernels *kernels;
+    const lmpi_kernels *kernels;
     grid g;
     int bands, m, orders, first, channels;
-    _Alignas(64) float x[RUN], y[RUN], z[RUN], value[LMP_KERNEL_CHANNELS][RUN];
-    lmp_kernel_texel_sums sums;
+    _Alignas(64) float x[RUN], y[RUN], z[RUN], value[LMPI_KERNEL_CHANNELS][RUN];
+    lmpi_kernel_texel_sums sums;
 } pass;
 
 static void read_channel(const pass *p, const char *at, int count, const double *solid_angle,
@@ -57,7 +57,7 @@ static void read_channel(const pass *p, const char *at, int count, const double 
         for (int i = 0; i < count; i++) {
             uint16_t half;
             memcpy(&half, at + (size_t)i * stride, sizeof half);
-            value[i] = (float)((double)lmp_float_of_half(half) * solid_angle[i]);
+            value[i] = (float)((double)lmpi_float_of_half(half) * solid_angle[i]);
         }
     else
         for (int i = 0; i < count; i++) {
@@ -65,7 +65,7 @@ static void read_channel(const pass *p, const char *at, int count, const double 
             memcpy(&texel, at + (size_t)i * stride, sizeof texel);
             value[i] = (float)((double)texel * solid_angle[i]);
         }
-    for (int i = count; i % LMP_KERNEL_LANES_MAX; i++)
+    for (int i = count; i % LMPI_KERNEL_LANES_MAX; i++)
         value[i] = 0;
 }
 
@@ -74,13 +74,13 @@ static void add_run(pass *p, const void *pixels, int row, int column, int count,
                     const double *solid_angle) {
     const char *at =
         (const char *)pixels + (size_t)row * p->g.row_stride + (size_t)column * p->g.texel_stride;
-    lmp_kernel_texels texels = { .direction = { p->x, p->y, p->z }, .channels = p->channels };
+    lmpi_kernel_texels texels = { .direction = { p->x, p->y, p->z }, .channels = p->channels };
     for (int c = 0; c < p->channels; c++) {
         read_channel(p, at + (size_t)(p->first + c) * p->g.channel_stride, count, solid_angle,
                      p->value[c]);
         texels.value[c] = p->value[c];
     }
-    p->kernels->image(p->bands, p->m, p->orders, &texels, (size_t)count, &p->sums);
+    p->kernels->sh.image(p->bands, p->m, p->orders, &texels, (size_t)count, &p->sums);
 }
 
 static void write_sums(const pass *p, float *sh) {
@@ -98,13 +98,13 @@ static void write_sums(const pass *p, float *sh) {
 typedef void add_image(const void *image, pass *p);
 
 static void project(const void *image, grid g, add_image *add, int bands, int channels, float *sh) {
-    assert(lmp_is_bands(bands));
-    pass p = { .kernels = lmp_kernels_get(), .g = g, .bands = bands };
-    for (p.first = 0; p.first < channels; p.first += LMP_KERNEL_CHANNELS) {
+    assert(lmpi_is_bands(bands));
+    pass p = { .kernels = lmpi_kernels_get(), .g = g, .bands = bands };
+    for (p.first = 0; p.first < channels; p.first += LMPI_KERNEL_CHANNELS) {
         const int left = channels - p.first;
-        p.channels = left < LMP_KERNEL_CHANNELS ? left : LMP_KERNEL_CHANNELS;
-        for (p.m = 0; p.m < bands; p.m += LMP_KERNEL_ORDERS) {
-            p.orders = bands - p.m < LMP_KERNEL_ORDERS ? bands - p.m : LMP_KERNEL_ORDERS;
+        p.channels = left < LMPI_KERNEL_CHANNELS ? left : LMPI_KERNEL_CHANNELS;
+        for (p.m = 0; p.m < bands; p.m += LMPI_KERNEL_ORDERS) {
+            p.orders = bands - p.m < LMPI_KERNEL_ORDERS ? bands - p.m : LMPI_KERNEL_ORDERS;
             memset(&p.sums, 0, sizeof p.sums);
             add(image, &p);
             write_sums(&p, sh);
@@ -152,20 +152,21 @@ void lmp_sh_project_latlong(int bands, const lmp_latlong *image, float *sh) {
 
 /* --- cube maps -------------------------------------------------------------------------------- */
 
-/* A face: the axes of increasing column and row, and the axis it is on (OpenGL 4.6, table 8.19). */
+/* The axes of each face: of increasing column, of increasing row, and the axis it is on (OpenGL
+ * 4.6, table 8.19). */
 static const signed char face_axes[6][3][3] = {
     { { 0, 0, -1 }, { 0, -1, 0 }, { 1, 0, 0 } }, { { 0, 0, 1 }, { 0, -1, 0 }, { -1, 0, 0 } },
     { { 1, 0, 0 }, { 0, 0, 1 }, { 0, 1, 0 } },   { { 1, 0, 0 }, { 0, 0, -1 }, { 0, -1, 0 } },
     { { 1, 0, 0 }, { 0, -1, 0 }, { 0, 0, 1 } },  { { -1, 0, 0 }, { 0, -1, 0 }, { 0, 0, -1 } },
 };
 
-/* The solid angle of the rectangle from the center of a face to (u, v) on it. */
+/* Returns the solid angle of the rectangle from the center of a face to (u, v) on it. */
 static double corner_angle(double u, double v) {
     return atan2(u * v, sqrt(u * u + v * v + 1));
 }
 
-/* What texels of all faces share: where they are on their face, as unit vectors, and how large they
- * look. */
+/* What texels of all faces share: their positions on the face, as unit vectors, and their solid
+ * angles. */
 typedef struct face_run {
     double u[RUN], v[RUN], w[RUN], solid_angle[RUN];
 } face_run;
@@ -186,7 +187,7 @@ static void set_face_run(int size, int row, int column, int count, face_run *run
     }
 }
 
-/* Coordinate k of a face's texels. */
+/* Sets coordinate k of the directions of a face's texels. */
 static void set_coordinate(const face_run *run, int count, int face, int k, float sign, float *to) {
     const signed char(*axes)[3] = face_axes[face];
     const double *from = axes[0][k] ? run->u : axes[1][k] ? run->v : run->w;

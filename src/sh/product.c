@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Products of functions. The number of non-zero Γ_ijk grows as n^5, so beyond a few bands the two
- * functions are evaluated on a grid that integrates three harmonics exactly, multiplied there, and
- * projected back: O(n^3), azimuth and height apart. */
+/* product.c - products of functions. The number of nonzero Γ_ijk grows as n^5, so instead the two
+ * functions are evaluated on circles of constant height, multiplied there, and projected back by a
+ * quadrature rule that is exact for products of three harmonics. Few bands are handled by
+ * src/kernels/single_product_tmpl.h, more by a grid that is separable in azimuth and height and
+ * takes O(n^3). */
 #include "src/base/host.h"
 #include "src/base/precondition.h"
-#include "src/base/tables.h"
+#include "src/base/unroll.h"
+#include "src/kernels/dispatch.h"
 #include "src/sh/quadrature.h"
 
 #include <lampion/sh.h>
@@ -17,16 +20,16 @@ static const double pi = 3.14159265358979323846;
 struct lmp_sh_product {
     lmp_host host;
     int bands;
-    /* The grid, of more than LMP_SH_FEW_BANDS: per height, weight and q_l^m(z) r^m by m then l; per
-     * azimuth cos and sin of m phi. */
+    /* The grid, for more than LMP_SH_FEW_BANDS bands: for each height, its weight and q_l^m(z) r^m,
+     * ordered by m, then l; for each azimuth, cos and sin of m phi. */
     int heights, azimuths;
     float *weights, *columns, *cosines, *sines;
 };
 
 /* --- the grid --------------------------------------------------------------------------------- */
 
-/* Y_l,m of azimuth 0 for m = 0 … bands-1, l = m … bands-1: the recurrence of tables.h in double,
- * with the power of the radius in it. */
+/* Computes Y_l,m at azimuth 0 for m = 0 … bands-1 and l = m … bands-1, by the recurrence of
+ * tables.h in double precision, with the power of the radius included. */
 static void fill_columns(int bands, double z, double *column) {
     const double radius = sqrt((1 - z) * (1 + z));
     double diagonal = sqrt(1 / (4 * pi));
@@ -60,10 +63,10 @@ static lmp_result create_grid(lmp_sh_product *product) {
     const size_t columns = (size_t)product->heights * LMP_SH_HALF_COUNT(bands);
     const size_t waves = (size_t)product->azimuths * (size_t)bands;
     const size_t total = (size_t)product->heights + columns + 2 * waves;
-    product->weights = lmp_allocate(&product->host, total * sizeof(float));
-    double *column = lmp_allocate(&product->host, LMP_SH_HALF_COUNT(bands) * sizeof(double));
+    product->weights = lmpi_allocate(&product->host, total * sizeof(float));
+    double *column = lmpi_allocate(&product->host, LMP_SH_HALF_COUNT(bands) * sizeof(double));
     if (!product->weights || !column) {
-        lmp_release(&product->host, column);
+        lmpi_release(&product->host, column);
         return LMP_ERROR_MEMORY;
     }
     product->columns = product->weights + product->heights;
@@ -71,7 +74,7 @@ static lmp_result create_grid(lmp_sh_product *product) {
     product->sines = product->cosines + waves;
     for (int i = 0; i < product->heights; i++) {
         double z, weight;
-        lmp_gauss_legendre(product->heights, i, &z, &weight);
+        lmpi_gauss_legendre(product->heights, i, &z, &weight);
         product->weights[i] = (float)(weight * 2 * pi / product->azimuths);
         fill_columns(bands, z, column);
         for (size_t k = 0; k < LMP_SH_HALF_COUNT(bands); k++)
@@ -84,11 +87,11 @@ static lmp_result create_grid(lmp_sh_product *product) {
             product->sines[j * bands + m] = (float)sin(phi);
         }
     }
-    lmp_release(&product->host, column);
+    lmpi_release(&product->host, column);
     return LMP_OK;
 }
 
-/* A function along one circle of height: Σ_m cosine[m] cos(m phi) + sine[m] sin(m phi). */
+/* A function along one circle of constant height: Σ_m cosine[m] cos(m phi) + sine[m] sin(m phi). */
 typedef struct fourier {
     float cosine[LMP_BANDS_MAX], sine[LMP_BANDS_MAX];
 } fourier;
@@ -113,8 +116,8 @@ static float circle_value(int bands, const fourier *circle, const float *c, cons
     return value;
 }
 
-static void multiply_on_grid(const lmp_sh_product *product, const float *a, const float *b,
-                             float *c) {
+static LMPI_NOINLINE void multiply_on_grid(const lmp_sh_product *product, const float *a,
+                                           const float *b, float *c) {
     const int bands = product->bands;
     memset(c, 0, LMP_SH_COUNT(bands) * sizeof *c);
     for (int i = 0; i < product->heights; i++) {
@@ -142,21 +145,20 @@ static void multiply_on_grid(const lmp_sh_product *product, const float *a, cons
     }
 }
 
-/* --- the table -------------------------------------------------------------------------------- */
+/* --- few bands -------------------------------------------------------------------------------- */
 
-_Static_assert(LMP_SH_FEW_BANDS == LMP_TABLE_TRIPLE_BANDS, "the table has other bands");
+_Static_assert(LMP_SH_FEW_BANDS <= LMPI_SINGLE_BANDS, "there is no straight-line code for so many");
+
+static LMPI_NOINLINE void multiply_first(int bands, const float *a, const float *b, float *c) {
+    lmpi_single_get()->multiply[bands](bands, a, b, c);
+}
 
 void lmp_sh_multiply_few(int bands, const float *a, const float *b, float *c) {
     assert(bands >= 1 && bands <= LMP_SH_FEW_BANDS);
-    assert(lmp_are_apart(a, LMP_SH_COUNT(bands), c, LMP_SH_COUNT(bands)));
-    assert(lmp_are_apart(b, LMP_SH_COUNT(bands), c, LMP_SH_COUNT(bands)));
-    memset(c, 0, LMP_SH_COUNT(bands) * sizeof *c);
-    for (int n = 0; n < lmp_table_triple_ends[bands]; n++) {
-        const lmp_table_triple t = lmp_table_triples[n];
-        c[t.i] += t.value * (a[t.j] * b[t.k] + a[t.k] * b[t.j]);
-        c[t.j] += t.value * (a[t.i] * b[t.k] + a[t.k] * b[t.i]);
-        c[t.k] += t.value * (a[t.i] * b[t.j] + a[t.j] * b[t.i]);
-    }
+    assert(lmpi_are_apart(a, LMP_SH_COUNT(bands), c, LMP_SH_COUNT(bands)));
+    assert(lmpi_are_apart(b, LMP_SH_COUNT(bands), c, LMP_SH_COUNT(bands)));
+    const lmpi_kernels *kernels = lmpi_single_for(bands);
+    (kernels ? kernels->single->multiply[bands] : multiply_first)(bands, a, b, c);
 }
 
 /* --- the object ------------------------------------------------------------------------------- */
@@ -165,8 +167,8 @@ lmp_result lmp_sh_product_create(const lmp_host *host, int bands, lmp_sh_product
     *product = NULL;
     if (bands < 1 || bands > LMP_BANDS_MAX)
         return LMP_ERROR_ARGUMENT;
-    const lmp_host resolved = lmp_host_resolve(host);
-    lmp_sh_product *created = lmp_allocate(&resolved, sizeof *created);
+    const lmp_host resolved = lmpi_host_resolve(host);
+    lmp_sh_product *created = lmpi_allocate(&resolved, sizeof *created);
     if (!created)
         return LMP_ERROR_MEMORY;
     *created = (lmp_sh_product) { .host = resolved, .bands = bands };
@@ -183,13 +185,13 @@ void lmp_sh_product_destroy(lmp_sh_product *product) {
     if (!product)
         return;
     const lmp_host host = product->host;
-    lmp_release(&host, product->weights);
-    lmp_release(&host, product);
+    lmpi_release(&host, product->weights);
+    lmpi_release(&host, product);
 }
 
 void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b, float *c) {
-    assert(lmp_are_apart(a, LMP_SH_COUNT(product->bands), c, LMP_SH_COUNT(product->bands)));
-    assert(lmp_are_apart(b, LMP_SH_COUNT(product->bands), c, LMP_SH_COUNT(product->bands)));
+    assert(lmpi_are_apart(a, LMP_SH_COUNT(product->bands), c, LMP_SH_COUNT(product->bands)));
+    assert(lmpi_are_apart(b, LMP_SH_COUNT(product->bands), c, LMP_SH_COUNT(product->bands)));
     if (product->bands <= LMP_SH_FEW_BANDS)
         lmp_sh_multiply_few(product->bands, a, b, c);
     else

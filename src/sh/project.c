@@ -43,14 +43,14 @@ static void sample(const sampled *f, lmp_vec3 w, float value[3]) {
     value[2] = color.b;
 }
 
-/* Adds a ring of nodes at height z, by what its azimuths summed up to. The power of the radius is
- * m's: those azimuths are of unit vectors. */
+/* Adds a ring of nodes at height z, given the sums over its azimuths. The sums are of unit vectors,
+ * so the radius to the power m is multiplied here. */
 static void add_ring(int bands, double z, double radius, const double *cosine, const double *sine,
                      float *sh) {
     float q[LMP_BANDS_MAX];
     double power = 1;
     for (int m = 0; m < bands; m++) {
-        lmp_sh_column(bands, m, (float)z, q);
+        lmpi_sh_column(bands, m, (float)z, q);
         for (int l = m; l < bands; l++) {
             sh[LMP_SH_INDEX(l, m)] += q[l] * (float)(power * cosine[m]);
             if (m > 0)
@@ -62,14 +62,14 @@ static void add_ring(int bands, double z, double radius, const double *cosine, c
 
 static void project(int bands, int nodes, const sampled *f, float *sh) {
     const size_t plane = LMP_SH_COUNT(bands);
-    assert(lmp_is_bands(bands));
+    assert(lmpi_is_bands(bands));
     assert(nodes >= 0);
     if (nodes == 0)
         nodes = bands;
     memset(sh, 0, (size_t)f->channels * plane * sizeof *sh);
     for (int i = 0; i < nodes; i++) {
         double cosine[3][LMP_BANDS_MAX] = { 0 }, sine[3][LMP_BANDS_MAX] = { 0 }, z, weight;
-        lmp_gauss_legendre(nodes, i, &z, &weight);
+        lmpi_gauss_legendre(nodes, i, &z, &weight);
         const double radius = sqrt((1 - z) * (1 + z));
         for (int j = 0; j < 2 * nodes; j++) {
             const double c = cos(pi * (j + 0.5) / nodes), s = sin(pi * (j + 0.5) / nodes);

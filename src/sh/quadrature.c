@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-void lmp_gauss_legendre(int count, int i, double *node, double *weight) {
+void lmpi_gauss_legendre(int count, int i, double *node, double *weight) {
     double x = -cos(3.14159265358979323846 * (i + 0.75) / (count + 0.5)), slope = 1;
-    /* Newton's steps from that estimate: the third changes nothing but the last bits. */
+    /* Newton's steps from the estimate; the third changes only the last bits. */
     for (int step = 0; step < 4; step++) {
         double before = 0, now = 1;
         for (int l = 0; l < count; l++) {

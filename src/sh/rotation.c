@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Rotation by Wigner's d, R = Rz(alpha) Ry(beta) Rz(gamma). For each (m, k) the three-term
- * recurrence in l starts from a closed form at l = max(|m|, |k|) and runs upward, its stable
- * direction; so float32 orthogonality holds to 128 bands, where the recurrence of Ivanic and
- * Ruedenberg has lost it. All in double: the entries, not the path to them, are float. Angles are
- * cosines and sines from the start: nothing but the root is asked of the C library. */
+/* rotation.c - rotation by Wigner's d, R = Rz(alpha) Ry(beta) Rz(gamma). For each (m, k) the
+ * three-term recurrence in l starts from a closed form at l = max(|m|, |k|) and runs upward, its
+ * stable direction; so float32 orthogonality holds to 128 bands, where the recurrence of Ivanic and
+ * Ruedenberg has lost it. All is computed in double; only the entries are float. Angles are cosines
+ * and sines from the start, so only the square root is taken from the C library. */
 #include "src/base/precondition.h"
+#include "src/kernels/dispatch.h"
 #include "src/kernels/euler.h"
-#include "src/kernels/single.h"
 
 #include <lampion/sh.h>
 
@@ -16,7 +16,7 @@
 
 enum { POWERS = 2 * LMP_BANDS_MAX };
 
-/* What the entries are made of, for one rotation. */
+/* What the matrices of one rotation are computed from. */
 typedef struct euler {
     double cos_beta;
     double cos_half[POWERS], sin_half[POWERS];                 /* powers of cos and sin of beta/2 */
@@ -28,7 +28,8 @@ static void multiples(int bands, double c1, double s1, double *c, double *s) {
     c[0] = 1;
     s[0] = 0;
     for (int m = 1; m < bands; m++) {
-        /* of two halves: an error of the angle grows with the logarithm of m, not with m */
+        /* The product of two halves: an error of the angle grows with the logarithm of m, not with
+         * m. */
         const int a = m / 2, b = m - a;
         c[m] = m == 1 ? c1 : c[a] * c[b] - s[a] * s[b];
         s[m] = m == 1 ? s1 : c[a] * s[b] + s[a] * c[b];
@@ -56,9 +57,9 @@ static void euler_prepare(euler *angles, int bands, const double q[4]) {
               sum_s * difference_c - sum_c * difference_s, angles->gamma_cos, angles->gamma_sin);
 }
 
-/* d^l_mk and d^l_m,-k of l = m … bands-1, 0 <= k <= m, in [l]. root is that of (2m)! over
- * (m+k)! (m-k)!. An underflow to 0 is harmless: the recurrence multiplies it by less than 1e80 up
- * to 128 bands. */
+/* Computes d^l_mk and d^l_m,-k of l = m … bands-1, 0 <= k <= m, at index l. root is the square root
+ * of (2m)! over (m+k)! (m-k)!. An underflow to 0 is harmless: the recurrence multiplies it by less
+ * than 1e80 up to 128 bands. */
 static void wigner(const euler *angles, int bands, int m, int k, double root, double *plus,
                    double *minus) {
     const double mm = (double)m * m, kk = (double)k * k;
@@ -86,8 +87,8 @@ static void wigner(const euler *angles, int bands, int m, int k, double root, do
     }
 }
 
-/* Where the entries go: to matrices of floats or of doubles, or, times coefficients, to others'
- * sums; what is not wanted is NULL. */
+/* Where the entries go: into matrices of floats or of doubles, or, times coefficients, into sums.
+ * Unused members are NULL. */
 typedef struct entries_to {
     float *floats;
     double *doubles;
@@ -105,9 +106,9 @@ static inline void put(const entries_to *to, int l, int m, int k, double value) 
         to->rotated[LMP_SH_INDEX(l, m)] += (float)value * to->sh[LMP_SH_INDEX(l, k)];
 }
 
-/* The entries (±m, ±k) of bands first … bands-1, of d^l_mk and (-1)^k d^l_m,-k. From
- * Y^m(Rw) = Σ_k exp(i m alpha) d_mk exp(i k gamma) Y^k(w) for the complex harmonics, and
- * Y_l,±m = sqrt(2) {Re, Im} Y^m. */
+/* Computes the entries (±m, ±k) of bands first … bands-1 from d^l_mk and (-1)^k d^l_m,-k. They
+ * follow from Y^m(Rw) = Σ_k exp(i m alpha) d_mk exp(i k gamma) Y^k(w) for the complex harmonics,
+ * and Y_l,±m = sqrt(2) {Re, Im} Y^m. */
 static void fill(const euler *angles, int bands, int m, int k, const double signs[2],
                  const double *plus, const double *minus, const entries_to *to) {
     const double ca = angles->alpha_cos[m], sa = angles->alpha_sin[m];
@@ -133,14 +134,14 @@ static void fill(const euler *angles, int bands, int m, int k, const double sign
     }
 }
 
-/* d_km = (-1)^(m-k) d_mk and d_k,-m = d_m,-k: each is found once. */
+/* Computes all entries; d_km = (-1)^(m-k) d_mk and d_k,-m = d_m,-k, so each is computed once. */
 static void rotation_of(int bands, const double rotation[4], const entries_to *to) {
-    assert(lmp_is_bands(bands));
+    assert(lmpi_is_bands(bands));
     euler angles;
     double plus[LMP_BANDS_MAX], minus[LMP_BANDS_MAX];
     euler_prepare(&angles, bands, rotation);
     for (int m = 0; m < bands; m++) {
-        double root = 1; /* of the binomial of 2m over m+k */
+        double root = 1; /* square root of the binomial of 2m over m+k */
         for (int k = m; k >= 0; k--) {
             const double sign_m = m % 2 ? -1 : 1, sign_k = k % 2 ? -1 : 1;
             wigner(&angles, bands, m, k, root, plus, minus);
@@ -152,17 +153,17 @@ static void rotation_of(int bands, const double rotation[4], const entries_to *t
     }
 }
 
-void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices) {
+void lmp_sh_make_rotation(int bands, lmp_quat rotation, float *matrices) {
     const double q[4] = { (double)rotation.x, (double)rotation.y, (double)rotation.z,
                           (double)rotation.w };
     rotation_of(bands, q, &(entries_to) { .floats = matrices });
 }
 
-void lmp_sh_rotation_double(int bands, const double rotation[4], double *matrices) {
+void lmp_sh_make_rotation_double(int bands, const double rotation[4], double *matrices) {
     rotation_of(bands, rotation, &(entries_to) { .doubles = matrices });
 }
 
-/* One loop in two types: a block of each band times that band's coefficients. */
+/* Rotates coefficients of either type: each band's block times that band's coefficients. */
 #define ROTATE(number)                                                                             \
     for (int l = 0; l < bands; l++) {                                                              \
         const number *in = sh + LMP_SH_COUNT(l);                                                   \
@@ -175,22 +176,22 @@ void lmp_sh_rotation_double(int bands, const double rotation[4], double *matrice
     }
 
 void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rotated) {
-    assert(lmp_is_bands(bands));
-    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
-    assert(lmp_are_apart(matrices, LMP_SH_ROTATION_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
+    assert(lmpi_is_bands(bands));
+    assert(lmpi_are_apart(sh, LMP_SH_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
+    assert(lmpi_are_apart(matrices, LMP_SH_ROTATION_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
     ROTATE(float)
 }
 
 void lmp_sh_rotate_double(int bands, const double *matrices, const double *sh, double *rotated) {
     const size_t size = LMP_SH_COUNT(bands) * sizeof *sh;
-    assert(lmp_is_bands(bands) && lmp_are_bytes_apart(sh, size, rotated, size));
-    assert(lmp_are_bytes_apart(matrices, LMP_SH_ROTATION_COUNT(bands) * sizeof *matrices, rotated,
-                               size));
+    assert(lmpi_is_bands(bands) && lmpi_are_bytes_apart(sh, size, rotated, size));
+    assert(lmpi_are_bytes_apart(matrices, LMP_SH_ROTATION_COUNT(bands) * sizeof *matrices, rotated,
+                                size));
     (void)size;
     ROTATE(double)
 }
 
-/* The unit quaternion of a matrix, from its largest component so that nothing cancels. */
+/* Returns the unit quaternion of a matrix, from its largest component so that nothing cancels. */
 static lmp_quat quaternion_of(const float r[9]) {
     const float trace = r[0] + r[4] + r[8];
     const float four[4] = { 1 + 2 * r[0] - trace, 1 + 2 * r[4] - trace, 1 + 2 * r[8] - trace,
@@ -210,36 +211,35 @@ static lmp_quat quaternion_of(const float r[9]) {
     return (lmp_quat) { q[0], q[1], q[2], q[3] };
 }
 
-void lmp_sh_rotation_from_matrix(int bands, const float rotation[9], float *matrices) {
-    assert(lmp_is_rotation(rotation));
-    lmp_sh_rotation(bands, quaternion_of(rotation), matrices);
+void lmp_sh_make_rotation_from_matrix(int bands, const float rotation[9], float *matrices) {
+    assert(lmpi_is_rotation(rotation));
+    lmp_sh_make_rotation(bands, quaternion_of(rotation), matrices);
 }
 
-/* More bands than have straight-line code, by euler.h. */
+/* Rotates more bands than there is straight-line code for, by euler.h. */
 static void rotate_by_angles(int bands, const float rotation[9], const float *sh, float *rotated) {
-    float other[LMP_SH_COUNT(LMP_EULER_BANDS)];
-    lmp_euler parts;
-    lmp_euler_angles angles;
-    lmp_euler_of(rotation, &parts);
-    lmp_euler_angles_of(bands, &parts, &angles);
-    LMP_EULER_Z(float, bands, &angles.first, sh, other)
-    LMP_EULER_QUARTER(float, bands, other, rotated)
-    LMP_EULER_Z(float, bands, &angles.middle, rotated, rotated)
-    LMP_EULER_QUARTER(float, bands, rotated, other)
-    /* X^-1 is X and a half turn around x, which is but signs */
+    float other[LMP_SH_COUNT(LMPI_EULER_BANDS)];
+    lmpi_euler parts;
+    lmpi_euler_angles angles;
+    lmpi_euler_of(rotation, &parts);
+    lmpi_euler_angles_of(bands, &parts, &angles);
+    LMPI_EULER_Z(float, bands, &angles.first, sh, other)
+    LMPI_EULER_QUARTER(float, bands, other, rotated)
+    LMPI_EULER_Z(float, bands, &angles.middle, rotated, rotated)
+    LMPI_EULER_QUARTER(float, bands, rotated, other)
+    /* X^-1 is X times a half turn around x, which only changes signs. */
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++)
             if ((m < 0) != ((l + m) % 2 != 0))
                 other[LMP_SH_INDEX(l, m)] = -other[LMP_SH_INDEX(l, m)];
-    LMP_EULER_Z(float, bands, &angles.last, other, rotated)
+    LMPI_EULER_Z(float, bands, &angles.last, other, rotated)
 }
 
-void lmp_sh_rotate_by_matrix(int bands, const float rotation[9], const float *sh, float *rotated) {
-    assert(lmp_is_bands(bands) && lmp_is_rotation(rotation));
-    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
-    if (bands <= LMP_SINGLE_BANDS)
-        lmp_single_get()->rotate[bands](rotation, sh, rotated);
-    else if (bands <= LMP_EULER_BANDS)
+static LMPI_NOINLINE void rotate_any(int bands, const float rotation[9], const float *sh,
+                                     float *rotated) {
+    if (bands <= LMPI_SINGLE_BANDS)
+        lmpi_single_get()->rotate[bands](bands, rotation, sh, rotated);
+    else if (bands <= LMPI_EULER_BANDS)
         rotate_by_angles(bands, rotation, sh, rotated);
     else {
         const lmp_quat q = quaternion_of(rotation);
@@ -249,9 +249,18 @@ void lmp_sh_rotate_by_matrix(int bands, const float rotation[9], const float *sh
     }
 }
 
-void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rotated) {
-    assert(lmp_is_bands(bands));
-    assert(isfinite(angle) && lmp_are_same_or_apart(sh, rotated, LMP_SH_COUNT(bands)));
+void lmp_sh_rotate_by_matrix(int bands, const float rotation[9], const float *sh, float *rotated) {
+    assert(lmpi_is_bands(bands) && lmpi_is_rotation(rotation));
+    assert(lmpi_are_apart(sh, LMP_SH_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
+    const lmpi_kernels *kernels = lmpi_single_for(bands);
+    (kernels ? kernels->single->rotate[bands] : rotate_any)(bands, rotation, sh, rotated);
+}
+
+static LMPI_NOINLINE void rotate_z_any(int bands, float angle, const float *sh, float *rotated) {
+    if (bands <= LMPI_SINGLE_BANDS && fabsf(angle) <= LMPI_SINGLE_ANGLE_MAX) {
+        lmpi_single_get()->rotate_z[bands](bands, angle, sh, rotated);
+        return;
+    }
     const double step_c = cos((double)angle), step_s = sin((double)angle);
     double wide_c = 1, wide_s = 0; /* of m angles */
     for (int m = 0; m < bands; m++) {
@@ -266,4 +275,12 @@ void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rotated) {
             rotated[LMP_SH_INDEX(l, m)] = m > 0 ? c * plus - s * minus : plus;
         }
     }
+}
+
+void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rotated) {
+    assert(lmpi_is_bands(bands));
+    assert(isfinite(angle) && lmpi_are_same_or_apart(sh, rotated, LMP_SH_COUNT(bands)));
+    const lmpi_kernels *kernels = lmpi_single_for(bands);
+    (kernels && fabsf(angle) <= LMPI_SINGLE_ANGLE_MAX ? kernels->single->rotate_z[bands]
+                                                      : rotate_z_any)(bands, angle, sh, rotated);
 }

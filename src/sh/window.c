@@ -8,7 +8,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Of a band's position l / size inside 0 … 1. */
+/* Weights by a band's position l / size in 0 … 1. */
 static double none(double position) {
     (void)position;
     return 1;
@@ -26,18 +26,18 @@ static const struct {
     const char *name;
     double (*weight)(double position);
     bool ends; /* past `size` the weights are 0 */
-} windows[LMP_WINDOWS] = {
+} windows[LMP_WINDOW_COUNT] = {
     [LMP_WINDOW_NONE] = { "none", none, false },
     [LMP_WINDOW_HANNING] = { "hanning", hanning, true },
     [LMP_WINDOW_LANCZOS] = { "lanczos", lanczos, true },
 };
 
 const char *lmp_sh_window_name(lmp_window window) {
-    return (unsigned)window < LMP_WINDOWS ? windows[window].name : NULL;
+    return (unsigned)window < LMP_WINDOW_COUNT ? windows[window].name : NULL;
 }
 
-void lmp_sh_window(int bands, lmp_window window, float size, float *weights) {
-    assert(lmp_is_bands(bands) && (unsigned)window < LMP_WINDOWS);
+void lmp_sh_make_window(int bands, lmp_window window, float size, float *weights) {
+    assert(lmpi_is_bands(bands) && (unsigned)window < LMP_WINDOW_COUNT);
     assert(size >= 0 && isfinite(size));
     const double last = size > 0 ? (double)size : bands;
     weights[0] = 1;
@@ -53,7 +53,7 @@ void lmp_sh_window(int bands, lmp_window window, float size, float *weights) {
 
 /* --- minimum squared Laplacian ---------------------------------------------------------------- */
 
-/* l(l+1), minus the eigenvalue of the Laplacian. */
+/* Returns l(l+1), minus the eigenvalue of the Laplacian. */
 static double eigenvalue(int l) {
     return (double)l * (l + 1);
 }
@@ -62,7 +62,7 @@ static double laplacian_weight(double mu, int l) {
     return 1 / (1 + mu * eigenvalue(l) * eigenvalue(l));
 }
 
-/* What is left of the squared Laplacian under the weights of mu. */
+/* Returns the squared Laplacian that remains under the weights of mu. */
 static double squared_laplacian(int bands, const double *energy, double mu) {
     double sum = 0;
     for (int l = 0; l < bands; l++) {
@@ -72,16 +72,16 @@ static double squared_laplacian(int bands, const double *energy, double mu) {
     return sum;
 }
 
-void lmp_sh_window_laplacian(int bands, float keep, const float *sh, float *weights) {
-    assert(lmp_is_bands(bands));
+void lmp_sh_make_laplacian_window(int bands, float keep, const float *sh, float *weights) {
+    assert(lmpi_is_bands(bands));
     assert(keep > 0 && keep <= 1);
-    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), weights, (size_t)bands));
+    assert(lmpi_are_apart(sh, LMP_SH_COUNT(bands), weights, (size_t)bands));
     double energy[LMP_BANDS_MAX] = { 0 };
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++)
             energy[l] += (double)sh[LMP_SH_INDEX(l, m)] * (double)sh[LMP_SH_INDEX(l, m)];
     const double target = (double)keep * squared_laplacian(bands, energy, 0);
-    /* It falls as mu grows: bracket, then bisect in steps of equal ratio. */
+    /* The squared Laplacian falls as mu grows: bracket, then bisect in steps of equal ratio. */
     double low = 0, high = 0;
     if (keep < 1 && target > 0) {
         low = 1e-12, high = 1e-12;
@@ -99,9 +99,9 @@ void lmp_sh_window_laplacian(int bands, float keep, const float *sh, float *weig
         weights[l] = (float)laplacian_weight(high, l);
 }
 
-void lmp_sh_window_apply(int bands, const float *weights, const float *sh, float *windowed) {
-    assert(lmp_is_bands(bands));
-    assert(lmp_are_same_or_apart(sh, windowed, LMP_SH_COUNT(bands)));
+void lmp_sh_apply_window(int bands, const float *weights, const float *sh, float *windowed) {
+    assert(lmpi_is_bands(bands));
+    assert(lmpi_are_same_or_apart(sh, windowed, LMP_SH_COUNT(bands)));
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++)
             windowed[LMP_SH_INDEX(l, m)] = sh[LMP_SH_INDEX(l, m)] * weights[l];

@@ -99,7 +99,7 @@ struct call {
     const char *name;
     void (*ours)(int bands, int i);
     void (*peer)(int bands, int i);
-    int each; /* calls of the peer, or lights, that one of ours stands for */
+    int each; /* calls of the peer, or lights, that one of our calls stands for */
 };
 
 float *channel(int bands, int c) {
@@ -136,8 +136,7 @@ lmp_vec3_array point_of(const lmp_vec3 *points) {
 }
 
 void one_sphere_n(int bands, int i) {
-    lmp_light_project_n(nullptr, bands, &in.sphere[i], 1, nullptr, point_of(&origin), 1,
-                        LMP_SH_PLANAR, 0, in.out);
+    lmp_light_project_n(nullptr, bands, &in.sphere[i], 1, nullptr, point_of(&origin), 1, lmp_sh_planar(in.out, 0));
 }
 
 /* One point by the batch stands beside one light by the call. */

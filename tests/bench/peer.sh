@@ -12,7 +12,7 @@ shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# The annotations of Microsoft's compiler that DirectXMath's headers use, which mean nothing to others.
+# Defines away the annotations of Microsoft's compiler in DirectXMath's headers.
 for word in _In_ _Out_ _Inout_ _In_opt_ _Out_opt_ _Success_\(x\) _Use_decl_annotations_ _Analysis_assume_\(x\) \
     _In_reads_\(x\) _In_reads_opt_\(x\) _In_reads_bytes_\(x\) _Out_writes_\(x\) _Out_writes_opt_\(x\) \
     _Out_writes_bytes_\(x\) _In_range_\(x,y\) _Inout_updates_\(x\) _Inout_updates_all_\(x\) _Inout_updates_bytes_\(x\) _Null_terminated_ \

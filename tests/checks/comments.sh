@@ -4,7 +4,7 @@
 set -eu
 . tests/checks/common.sh
 
-# percent FILE: of its lines that are not blank, those of comment.
+# percent FILE: prints the percentage of comment among its lines that are not blank.
 percent() {
     awk '
         /^[ \t]*$/ { next }

@@ -1,21 +1,31 @@
 # SPDX-License-Identifier: MIT
-# What the scripts of this folder share.
+# Functions that the scripts of this folder share.
 
 fail() {
     printf '%s\n' "$*" >&2
     exit 1
 }
 
-# what is compiled here goes through what the tests' own build goes through, such as ccache
+# Compiles here by the same launcher as the tests' own build, such as ccache.
 CMAKE_C_COMPILER_LAUNCHER=$(sed -n 's/^CMAKE_C_COMPILER_LAUNCHER:[A-Z]*=//p' "$BUILD/CMakeCache.txt")
 export CMAKE_C_COMPILER_LAUNCHER
 
-# code_blocks FILE LANGUAGE: the lines of its ```LANGUAGE blocks.
+# code_of HEADER…: prints their code on one line, without comments and directives.
+code_of() {
+    sed '/^ *#/d' "$@" | tr '\n' ' ' | tr -s ' ' | awk '{ gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, ""); print }'
+}
+
+# declarations HEADER…: prints each exported function as a line: what it returns, its name, its arguments.
+declarations() {
+    code_of "$@" | tr ';' '\n' | sed -n 's/.*LMP_API \(.*[ *]\)\(lmp_[a-z0-9_]*\)(\(.*\))$/\1|\2|\3/p'
+}
+
+# code_blocks FILE LANGUAGE: prints the lines of its ```LANGUAGE blocks.
 code_blocks() {
     awk -v fence='```'"$2" '$0 == fence { inside = 1; next } /^```/ { inside = 0 } inside' "$1"
 }
 
-# own_scene FILE: a scene that stands for the reader's own, a triangle of the material floor.
+# own_scene FILE: writes a scene that stands for the reader's own, a triangle of the material floor.
 own_scene() {
     cat >"$1" <<'GLTF'
 { "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ],

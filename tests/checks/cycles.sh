@@ -5,7 +5,7 @@
 set -eu
 . tests/checks/common.sh
 
-# includes ROOT: a line "FILE FILE" for each include between files of src/, include/, app/ and shaders/.
+# includes ROOT: prints a line "FILE FILE" for each include between files of src/, include/, app/ and shaders/.
 includes() (
     cd "$1"
     find src include app shaders -name '*.[ch]' ! -path '*/generate/*' | xargs awk '
@@ -20,13 +20,14 @@ includes() (
         END { for (edge in edges) { split(edge, ends, " "); if (ends[2] in there) print edge } }'
 )
 
-# calls BUILD ROOT: the same for what the code of an object takes from another. Relocations of code alone;
-# an object whose source is gone is of an earlier build.
+# calls BUILD ROOT: prints a line "FILE FILE" for each object whose code uses another. Only relocations of code count;
+# an object whose source is gone is left from an earlier build. Other tests build the library for other machines below
+# BUILD.
 calls() (
     cd "$2"
     find src app -name '*.c' | sed 's,$,.o,' >"$WORK/sources"
     cd "$1"
-    find . -name '*.c.o' | grep -E '\.dir/src/|^\./app/' | grep -v /generate/ >"$WORK/objects"
+    find . -name '*.c.o' | grep -E '^\./(CMakeFiles/)?[^/]*\.dir/src/|^\./app/' | grep -v /generate/ >"$WORK/objects"
     xargs nm -A <"$WORK/objects" | awk 'NF == 3 && $2 ~ /[TDBRC]/ { sub(/:[0-9a-f]*$/, "", $1); print $3, "is", $1 }' >"$WORK/names"
     xargs readelf -rW <"$WORK/objects" | awk '
         /^File: / { file = $2 }
@@ -41,20 +42,30 @@ calls() (
         $2 == "taken" && home && home != $3 { print $3, home }' "$WORK/sources" - | sort -u
 )
 
-# rings EDGES: the first ring of files, nothing if there is none.
+# between FOLDER EDGES…: prints the edges of all files given whose ends are both in FOLDER.
+between() {
+    folder=$1
+    shift
+    awk -v folder="$folder/" 'index($1, folder) == 1 && index($2, folder) == 1' "$@" | sort -u
+}
+
+# rings EDGES: prints the first ring of files, or nothing.
 rings() {
     tsort "$1" 2>&1 >/dev/null | sed -n 's/^tsort: //p' | grep -v 'contains a loop' || true
 }
 
 includes . >"$WORK/includes"
 calls "$BUILD" . >"$WORK/calls"
-for edges in "$WORK/includes" "$WORK/calls"; do
+# In the library includes and calls together go one way, too: types lie below the parts that need them, and what joins
+# the parts lies above.
+between src "$WORK/includes" "$WORK/calls" >"$WORK/library"
+for edges in "$WORK/includes" "$WORK/calls" "$WORK/library"; do
     [ "$(wc -l <"$edges")" -gt 300 ] || fail "$edges: too few to be all"
     found=$(rings "$edges")
     [ -z "$found" ] || fail "$(basename "$edges"): in a ring:" $found
 done
 
-# and one would be seen
+# A planted ring must be found.
 mkdir -p "$WORK/src/a"
 echo '#include "src/a/y.h"' >"$WORK/src/a/x.h"
 echo '#include "src/a/z.h"' >"$WORK/src/a/y.c"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # ./dev keeps its build folders to itself: one that somebody configured without tests or program by hand is
-# configured anew, and said to be; one of its own is left alone. Presets for people have other folders.
+# reconfigured, and said to be; one of its own is left alone. Presets for people have other folders.
 set -eu
 . tests/checks/common.sh
 
@@ -14,7 +14,7 @@ printf '#!/bin/sh\nprintf installed\n' >"$WORK/bin/dpkg-query"
 chmod +x "$WORK/bin/cmake" "$WORK/bin/dpkg-query"
 export LOG="$WORK/log"
 
-# built TESTS PROGRAM: what ./dev build asks of cmake where release was configured so.
+# built TESTS PROGRAM: prints what ./dev build asks of cmake after release was configured so.
 built() {
     : >"$LOG"
     : >"$WORK/tree/build/release/build.ninja"
@@ -23,12 +23,12 @@ built() {
 }
 build='--build --preset release --target lampion_program'
 built ON ON
-[ "$(cat "$LOG")" = "$build" ] && [ ! -s "$WORK/err" ] || fail "its own folder is configured anew: $(cat "$LOG" "$WORK/err")"
+[ "$(cat "$LOG")" = "$build" ] && [ ! -s "$WORK/err" ] || fail "its own folder is reconfigured: $(cat "$LOG" "$WORK/err")"
 for wrong in 'OFF ON' 'ON OFF'; do
     built $wrong
     [ "$(cat "$LOG")" = "--fresh --preset release
 $build" ] || fail "a folder of $wrong is taken as it is: $(cat "$LOG")"
-    grep -q 'configuring it anew' "$WORK/err" || fail "nothing is said of it: $(cat "$WORK/err")"
+    grep -q 'reconfiguring it' "$WORK/err" || fail "nothing is said of it: $(cat "$WORK/err")"
 done
 ! grep -h 'cmake --preset' README.md docs/*.md | grep -vE 'preset (library|install|web)\b' ||
     fail "a document sends its readers into a folder of ./dev"

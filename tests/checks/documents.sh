@@ -3,7 +3,7 @@
 set -eu
 . tests/checks/common.sh
 
-documents="README.md CONTRIBUTING.md CHANGELOG.md $(find docs -name '*.md')"
+documents="README.md CONTRIBUTING.md CHANGELOG.md SECURITY.md $(find docs -name '*.md')"
 
 # check_lines LINES: of each line "where, tab, line of shell" the last lampion or ./dev: the command and its options
 # are known to its --help, and no word is left over that is neither an option's value nor an operand.
@@ -15,7 +15,7 @@ check_lines() {
     ./dev help >"$WORK/dev"
     awk -F '\t' -v dev="$WORK/dev" '
         function fail(text) { print text; bad = 1; exit 1 }
-        # row_of COMMAND OPTION: the first line of the help that begins with it
+        # row_of COMMAND OPTION: prints the first line of the help that begins with it.
         function row_of(command, option, i, at) {
             for (i = 1; i <= rows[command]; i++) {
                 at = index(row[command, i] " ", option " ")
@@ -57,14 +57,14 @@ check_lines() {
         END { exit bad }' "$WORK"/help/* "$1" >"$WORK/log" || fail "$(cat "$WORK/log")"
 }
 
-# those_of WHERE: puts it before each line of standard input.
+# those_of WHERE: puts WHERE before each line of standard input.
 those_of() {
     sed "s,^,$1$(printf '\t'),"
 }
 
 for document in $documents; do
     code_blocks "$document" sh | sed 's/ [#>].*//; s/|.*lampion/ lampion/; s/ | .*//; s/ <<.*//' | those_of "$document"
-    # and those in the text, between back ticks
+    # Commands in the text stand between back ticks.
     sed '/^ *```/,/^ *```/d' "$document" | grep -o '`\(lampion\|\./dev\) [^`]*`' |
         sed 's/`//g; s/ [#>].*//' | those_of "$document" || true
 done >"$WORK/lines"
@@ -75,17 +75,17 @@ for document in $documents; do
     done
 done
 
-# the examples of every --help
+# Examples of every --help are checked.
 for command in $("$PROGRAM" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
     "$PROGRAM" "$command" --help | sed '1,/^Examples:/d; s/ [#>].*//' | those_of "$command --help"
 done >>"$WORK/lines"
 
-# and what ./dev demo tells people to try
+# Commands that ./dev demo suggests are checked.
 sed -n "/<<'NEXT'/,/^NEXT/p" dev | grep 'lampion ' | those_of "./dev demo" >>"$WORK/lines"
 [ "$(grep -c 'lampion \|\./dev ' "$WORK/lines")" -gt 300 ] || fail "too few commands to be all"
 check_lines "$WORK/lines"
 
-# and a wrong one would be seen
+# A wrong command must be found.
 for line in 'lampion rendre' 'lampion render --badns 3 x' 'lampion render a b --size 8x8' './dev tset'; do
     echo "$line" | those_of planted >"$WORK/planted"
     ! (check_lines "$WORK/planted") 2>/dev/null || fail "$line goes unseen"

@@ -29,7 +29,7 @@ for frames in 1 20; do
         fail "lanterns: $(cat log)"
 done
 ! cmp -s 1.ppm 20.ppm || fail "the lanterns stand still"
-# the sky is black, the floor lit and warm, and the lanterns are bright
+# The sky must be black, the floor lit and warm, and the lanterns bright.
 [ "$(head -n 1 20.ppm)" = "P6 960 540 255" ] || fail "size: $(head -n 1 20.ppm)"
 tail -c $((3 * 960 * 540)) 20.ppm | od -An -v -tu1 -w2880 | awk '
     NR <= 100 { for (i = 1; i <= NF; i++) sky += $i }

@@ -3,7 +3,7 @@
 set -eu
 . tests/checks/common.sh
 
-# Functions of headers that take bytes and their number, or an image as a file has it.
+# Finds the functions of headers that take bytes and their number, or an image as a file has it.
 readers() {
     find include app -name '*.h' -exec sed 's,/\*.*\*/,,; /\/\*/,/\*\//d; /^#/d' {} + | tr '\n' ' ' | tr ';' '\n' |
         grep -E '(const (void|char|unsigned char|uint8_t) \*[a-z_]+, size_t [a-z_]+|const image_source \*[a-z]+)[,)]' |
@@ -14,7 +14,7 @@ readers() {
 inner="texture_keep texture_keep_once gltf_open gltf_parse"
 others="assimp_add bake_add_settings file_hash_add file_read file_read_descriptor file_read_json scene_read_lights"
 # and those who read text up to its end, or lines
-more="animation_open cli_number csv_read_row file_cache_map gltf_add mtl_add obj_add scene_add_lights_file sgd_file_find texture_decode_all view_script_read"
+more="animation_open number_read csv_read_row file_cache_map gltf_add mtl_add obj_add scene_add_lights_file sgd_file_find texture_decode_all view_script_read"
 
 readers >"$WORK/readers"
 [ "$(wc -l <"$WORK/readers")" -gt 12 ] || fail "too few readers to be all: $(cat "$WORK/readers")"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The program as it is built: what Debian hardens its packages with is in it.
+# The program as built has what Debian hardens its packages with.
 set -eu
 . tests/checks/common.sh
 
@@ -18,7 +18,7 @@ if [ "$(uname -m)" = x86_64 ]; then
     objdump -d --disassemble=main "$PROGRAM" | grep -q endbr64 || fail "no -fcf-protection"
 fi
 
-# The library for Windows asks for none of it, which C libraries there lack. Only the commands are made.
+# The library for Windows must not need any of it, because C libraries there lack it. Only the commands are made.
 cmake -S "$SOURCE" -B "$WORK/windows" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_SYSTEM_NAME=Windows \
     -DCMAKE_SYSTEM_PROCESSOR=x86_64 -DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY -DLAMPION_PROGRAM=OFF -DLAMPION_TESTS=OFF >"$WORK/log"
 grep -q 'src/light/light\.c' "$WORK/windows/compile_commands.json" || fail "no commands for Windows"

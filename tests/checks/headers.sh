@@ -42,3 +42,11 @@ done
 if echo '#include <lampion/nothing.h>' | gcc -Iinclude -fsyntax-only -xc - 2>/dev/null; then
     fail "a header that is not there was found"
 fi
+
+# MSVC takes them, too: by clang's imitation of it, which brings its own headers of C.
+for language in 'c -std=c11' 'c++ -std=c++17'; do
+    for dll in '' -DLMP_DLL -DLMP_DLL_BUILD; do
+        echo '#include <lampion/lampion.h>' | clang --target=x86_64-pc-windows-msvc -ffreestanding -nostdlibinc -x $language $dll -Iinclude -Wall -Wextra \
+            -Werror -fsyntax-only - || fail "the headers do not compile as $language for MSVC $dll"
+    done
+done

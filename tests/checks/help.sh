@@ -28,7 +28,7 @@ line=$("$PROGRAM" projcet 2>&1) || status=$?
 [ "$status: $line" = "2: lampion: unknown command projcet (did you mean project?); see lampion --help" ] ||
     fail "projcet: $status: $line"
 
-# whatever is misspelt, the nearest is named: hints 'WORD' ARGUMENT…
+# hints 'WORD' ARGUMENT…: a misspelt word must be answered by the nearest.
 hints() {
     word=$1
     shift
@@ -51,7 +51,7 @@ hints cpu bench cpuu
 hints fish completion fihs
 hints render man rendr
 
-# progress is for terminals: none in a pipe (above), none on a dumb one; no color in it
+# Progress is for terminals: there is none in a pipe (above), nor on a dumb terminal, which gets no color either.
 if command -v script >/dev/null; then
     for terminal in dumb xterm; do
         script -qec "TERM=$terminal '$PROGRAM' reference builtin:ball --size 96x64 --spp 64 -o '$WORK/t.png'" \
@@ -60,7 +60,7 @@ if command -v script >/dev/null; then
         ! grep -q "$(printf '\033\\[[0-9;]*m')" "$WORK/$terminal" || fail "colors on $terminal"
     done
     [ ! -s "$WORK/dumb" ] || fail "progress on a dumb terminal: $(cat "$WORK/dumb")"
-    # the name of the program is colored in an error and in a note, on a terminal that wants it
+    # The program's name is colored in an error and in a note, on a terminal that supports it.
     says() {
         script -qec "$1 '$PROGRAM' $2" /dev/null </dev/null | tr -d '\r'
     }
@@ -84,7 +84,7 @@ status=0
 "$PROGRAM" --help >&- 2>/dev/null || status=$?
 [ $status = 1 ] || fail "a closed output goes unseen: $status"
 
-# a reader that leaves early is no news
+# A reader that leaves early is no error.
 awk 'BEGIN { print "light_x,light_y,light_z,radius,recv_x,recv_y,recv_z"
     for (i = 0; i < 100000; i++) print "0,0,1,0.1,0,0,0" }' >"$WORK/table"
 { "$PROGRAM" project --batch "$WORK/table" 2>"$WORK/early" || echo $? >"$WORK/status"; } |

@@ -14,10 +14,11 @@ quietly() {
 }
 
 mkdir "$WORK/package" "$WORK/inside"
-cat >"$WORK/package/CMakeLists.txt" <<'CMAKE'
+version=$(sed -n 's/^#define LMP_VERSION_M[A-Z]* //p' include/lampion/base.h | paste -sd .)
+cat >"$WORK/package/CMakeLists.txt" <<CMAKE
 cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES C)
-find_package(lampion 0.1 REQUIRED)
+find_package(lampion $version REQUIRED)
 add_executable(first_light ../first_light.c)
 target_link_libraries(first_light PRIVATE lampion::lampion)
 CMAKE
@@ -29,7 +30,7 @@ add_executable(first_light ../first_light.c)
 target_link_libraries(first_light PRIVATE lampion::lampion)
 CMAKE
 
-# consume KIND: the program against that kind of library, by CMake and by pkg-config.
+# consume KIND: builds the program against that kind of library, by CMake and by pkg-config.
 consume() {
     kind=$1 shared=ON static=
     [ "$kind" = shared ] || shared=OFF static=yes
@@ -58,7 +59,7 @@ quietly cmake -G Ninja -S "$WORK/inside" -B "$WORK/inside/build" -DCMAKE_BUILD_T
 quietly cmake --build "$WORK/inside/build"
 "$WORK/inside/build/first_light" >"$WORK/inside.txt"
 
-# the library alone asks for nothing of the program's
+# The library alone needs nothing of the program's.
 quietly cmake --preset library -B "$WORK/alone" -DCMAKE_INSTALL_PREFIX="$WORK/alone/installed"
 ! grep -qiE 'embree|pkg_config|cmocka' "$WORK/alone/CMakeCache.txt" || fail "the library alone looks for the program's libraries"
 [ -z "${LAMPION_LONG:-}" ] || {
@@ -69,8 +70,8 @@ quietly cmake --preset library -B "$WORK/alone" -DCMAKE_INSTALL_PREFIX="$WORK/al
     "$WORK/alone/first_light" | cmp "$WORK/inside.txt" - || fail "the library alone gives another color"
 }
 
-# README's three lines of FetchContent, with this tree in the place of what they would fetch, by a compiler that
-# CMake takes for another processor's: the kernels follow the compiler
+# README's three lines of FetchContent get this tree in place of what they would fetch, and a compiler that CMake takes
+# for another processor's: the kernels must follow the compiler.
 code_blocks README.md cmake >"$WORK/fetch.cmake"
 [ "$(grep -c . "$WORK/fetch.cmake")" = 4 ] || fail "README.md has no three lines of FetchContent and the one that links"
 mkdir "$WORK/fetched"
@@ -82,7 +83,7 @@ $(cat "$WORK/fetch.cmake")
 CMAKE
 quietly cmake -G Ninja -S "$WORK/fetched" -B "$WORK/fetched/build" -DFETCHCONTENT_SOURCE_DIR_LAMPION="$SOURCE" \
     -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=none-such -DCMAKE_BUILD_TYPE=Debug
-for define in LMP_KERNELS_VECTOR $([ "$(uname -m)" != x86_64 ] || echo LMP_KERNELS_X86); do
+for define in LMPI_KERNELS_VECTOR $([ "$(uname -m)" != x86_64 ] || echo LMPI_KERNELS_X86); do
     grep -q "$define" "$WORK/fetched/build/build.ninja" || fail "without $define, by the name of a processor"
 done
 grep -q cmocka "$WORK/fetched/build/CMakeCache.txt" && fail "a library within a project looks for what tests need"

@@ -16,7 +16,7 @@ packages="liblampion$soversion liblampion-dev liblampion-doc lampion"
 root=$WORK/root
 lib=$root/usr/lib/$multiarch
 
-# built twice, and here in another folder than the tests' own: the same bytes
+# Built again, in another folder than the tests' own, the packages must have the same bytes.
 touch LICENSE # times of files do not count
 rm -rf build/package/_CPack_Packages
 ./dev package "$WORK/two" >"$WORK/log" 2>&1 || fail "$(tail -n 40 "$WORK/log")"
@@ -31,7 +31,7 @@ for package in $packages; do
     done
     dpkg-deb -f "$1" Depends >"$WORK/$package.depends"
 done
-# built in other folders, the program and the library are the same; the program names its commit
+# The program and the library must be the same from other folders; the program names its commit.
 commit_of() {
     grep -om1 'LAMPION_COMMIT=[^ ]*' "$1/build.ninja"
 }
@@ -54,7 +54,7 @@ if git rev-parse HEAD >/dev/null 2>&1; then # the archive knows its commit
     grep -q "$(git rev-parse --short HEAD)" "$WORK/commit" || fail "the source archive is of commit $(cat "$WORK/commit")"
 fi
 
-# what depends on what
+# Dependencies between the packages.
 grep -q "liblampion$soversion (= $version" "$WORK/liblampion-dev.depends" || fail "dev: $(cat "$WORK/liblampion-dev.depends")"
 for library in libassimp5 libdraco7 libembree3-3 libglfw3 libjpeg62-turbo libmeshoptimizer2d libpango libpng16-16 libopenexr libseccomp2 libwebp7 libxxhash0 libepoxy0 libegl1 libgl1 libgl1-mesa-dri; do
     grep -q "$library" "$WORK/lampion.depends" || fail "lampion does not depend on $library"
@@ -62,7 +62,7 @@ done
 [ "$(sed 's/ (.*//' "$WORK/liblampion$soversion.depends")" = libc6 ] || fail "the library depends on more than libc6"
 [ "$(objdump -p "$lib/liblampion.so.$version" | sed -n 's/ *SONAME *//p')" = "liblampion.so.$soversion" ] || fail "soname"
 
-# the program, its manual and completion
+# The program, its manual and its completion.
 "$root/usr/bin/lampion" project --light 0,3,0 --radius 0.5 --bands 2 >/dev/null || fail "the program does not run"
 for command in $("$PROGRAM" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
     [ -f "$root/usr/share/man/man1/lampion-$command.1.gz" ] || fail "no manual page of $command"
@@ -75,14 +75,14 @@ for file in bash-completion/completions/lampion zsh/vendor-completions/_lampion 
     [ -s "$root/usr/share/$file" ] || fail "no $file"
 done
 
-# the library, as installed (checks.install does more)
+# The library as installed, of which checks.install tests more.
 export PKG_CONFIG_PATH="$lib/pkgconfig"
 gcc examples/first_light.c $(pkg-config --cflags --libs lampion) -o "$WORK/shared" || fail "pkg-config"
 objdump -p "$WORK/shared" | grep -q "NEEDED *liblampion.so.$soversion" || fail "not linked to the shared library"
 LD_LIBRARY_PATH=$lib "$WORK/shared" >"$WORK/shared.txt"
 [ -s "$WORK/shared.txt" ] || fail "the example prints nothing"
 
-# the way of the README's reader: a scene, three lights, a material, the truth
+# The steps of the README's reader: a scene, three lights, a material, the truth.
 mkdir "$WORK/reader"
 own_scene "$WORK/reader/scene.gltf"
 code_blocks README.md json >"$WORK/reader/lights.json"
@@ -98,7 +98,7 @@ for image in mine.png gold.png; do
 done
 ! cmp -s "$WORK/reader/mine.png" "$WORK/reader/gold.png" || fail "the material changes nothing"
 
-# dpkg's own account of it, in a root of its own: installed, then purged without a trace
+# dpkg's own account, in a separate root: installed, then purged without a trace.
 if [ "$(id -u)" = 0 ]; then
     system=$WORK/system
     mkdir -p "$system/var/lib/dpkg/info" "$system/var/lib/dpkg/updates"

@@ -10,8 +10,8 @@ command -v clang >/dev/null || { echo "skipped: clang is not installed"; exit 0;
 cmake -S "$SOURCE" -B "$WORK/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER=clang \
     -DCMAKE_C_FLAGS='-O2 -D_FORTIFY_SOURCE=2' -DLAMPION_PROGRAM=OFF -DLAMPION_TESTS=OFF >"$WORK/log"
 cat >"$WORK/six_bands.c" <<'C'
-#define LMP_LANES 8
-#include "src/kernels/basis.h"
+#define LMPI_LANES 8
+#include "src/kernels/basis_tmpl.h"
 void six_bands(const float *axes, float *planes);
 void six_bands(const float *axes, float *planes) {
     const vf axis[3] = { vf_load(axes), vf_load(axes + 8), vf_load(axes + 16) };

@@ -1,42 +1,41 @@
 # SPDX-License-Identifier: MIT
-# What the library shows and needs: exports lmp_ names alone, has no state but the kernel table,
-# and needs nothing but the mathematics, memory and string functions of C.
+# What the library shows and needs: exports what the public headers declare alone, has no state but the kernel
+# table, and needs nothing but the mathematics, memory and string functions of C.
 set -eu
 . tests/checks/common.sh
 
-kernel_table=lmp_kernel_table # the one global
+kernel_table=lmpi_kernel_table # the one global
 
 archive=$WORK/../libraries/build/liblampion.a
 shared=$WORK/../libraries/build/liblampion.so
 
-# names LETTERS: of nm's output on stdin, the symbols of those kinds.
+# names LETTERS: prints the symbols of those kinds from nm's output on standard input.
 names() {
     awk -v kinds="[$1]" 'NF >= 2 && $(NF - 1) ~ "^" kinds "$" { print $NF }' | sort -u
 }
 
-strangers=$(nm --defined-only --extern-only "$archive" | names A-Z | grep -v '^lmp_' || true)
-[ -z "$strangers" ] || fail "the archive exports names without lmp_:" $strangers
-strangers=$(nm -D --defined-only "$shared" | names A-Z | grep -v '^lmp_' || true)
-[ -z "$strangers" ] || fail "the shared library exports names without lmp_:" $strangers
-
-# every function of the headers is exported by the shared library, and nothing else
-declared=$(cat include/lampion/*.h | tr '\n' ' ' | grep -o 'LMP_API [^;(]*' | sed 's,.*[ *],,' | grep '^lmp_' | sort -u)
+# The shared library exports every function of the headers, and nothing else.
+declared=$(declarations include/lampion/*.h | cut -d '|' -f 2 | sort -u)
 exported=$(nm -D --defined-only "$shared" | names A-Z)
 [ "$declared" = "$exported" ] || fail "declared and exported differ (< declared, > exported):" "$(
     printf '%s\n' "$declared" >"$WORK/declared"
     printf '%s\n' "$exported" | diff "$WORK/declared" - || true
 )"
 
-# .data and .bss, of functions' statics too; constant tables of pointers lie in .data.rel.ro
+# A static library has private names besides.
+strangers=$(nm --defined-only --extern-only "$archive" | names A-Z | grep -v '^lmpi_' | grep -vxF "$declared" || true)
+[ -z "$strangers" ] || fail "the archive has names that are neither declared nor begin with lmpi_:" $strangers
+
+# State would be in .data and .bss, where functions' statics are, too; constant tables of pointers are in .data.rel.ro.
 state=$(objdump -t "$archive" | awk 'NF >= 5 && $(NF - 2) ~ /^\.(data|bss|tdata|tbss)/ &&
     $(NF - 2) !~ /^\.data\.rel\.ro/ && $(NF - 1) !~ /^0+$/ { print $NF }' | sort -u |
     grep -vx "$kernel_table" || true)
 [ -z "$state" ] || fail "the library has mutable state:" $state
 
 libm=$(nm -D --defined-only "$(gcc -print-file-name=libm.so.6)" | names A-Zi | sed 's/@.*//' | sort -u)
-# What a hardened build puts in the place of memory functions, and calls when a guard is gone.
+# A hardened build replaces memory functions by these, and calls the last when a guard is damaged.
 guards='__stack_chk_fail __memcpy_chk __memmove_chk __memset_chk'
-# The compiler's own support library tells the CPU (__builtin_cpu_supports).
+# The compiler's own support library identifies the CPU (__builtin_cpu_supports).
 printf '%s\n' "$libm" __cpu_model __cpu_indicator_init $guards malloc free memcpy memmove memset memcmp strcmp strlen | sort -u >"$WORK/allowed"
 nm --defined-only --extern-only "$archive" | names A-Z >"$WORK/own"
 needed=$(nm --undefined-only "$archive" | names U | sort -u |
@@ -45,3 +44,7 @@ needed=$(nm --undefined-only "$archive" | names U | sort -u |
 
 libraries=$(objdump -p "$shared" | awk '$1 == "NEEDED" && $2 !~ /^lib[mc]\.so/ { print $2 }')
 [ -z "$libraries" ] || fail "the shared library needs" $libraries
+
+# The program starts without libraries that few commands need, which would take longer than most of them.
+late=$(objdump -p "$PROGRAM" | awk '$1 == "NEEDED" && $2 ~ /^lib(assimp|glfw|pango|cairo|glib|gobject)/ { print $2 }')
+[ -z "$late" ] || fail "the program starts with" $late

@@ -1,61 +1,44 @@
 # SPDX-License-Identifier: MIT
-# One word for a thing: what stands on the left is called what stands on the right, in identifiers, options,
-# help, comments and documents. Only words that mean nothing else here, or what stands around those that do.
+# One spelling, and one name for a thing in the code: what stands on the left is called what stands on the right. Prose may use
+# any plain English.
 set -eu
 . tests/checks/common.sh
 
 words() {
     cat <<'END'
-pictures?=image
-matt=matte, diffuse
-graphics cards?=GPU
-processors=CPU, core
-the processor=CPU, core
-ladders?=stages
-rungs?=stage
-house=checks
-contestants?=benchmark case
-made anew=reproduced, drawn again
-one_minus=one_minus_cos
+matt=matte
 colours?=color
 centres?=center
 greys?=gray
-sound=valid
+one_minus=one_minus_cos
 lmp_parse_error \*?(fault|wrong)=error
-[a-z_]+_fault=error, what is wrong
-answer(s|ed|ing)?=response, reply
-[a-z_]*gather(ed|s|ing)?[a-z_]*=accumulated, response
-heaps?=allocator
+[a-z_]+_fault=error
+[a-z]+_gather(ed|s|ing)?[a-z_]*=accumulated, response
 lmp_(brdf|material)_response=lmp_preintegrated_brdf
-(measured|several|two|of) responses=preintegrated lobes, BRDFs
 measured_materials_[a-z_]+=tabulated
-(sharp|broad) lobes?=narrow, specular; wide, diffuse
-cut(s|ting)? (lobes?|series|(the )?materials?)=truncate
-(lobes?|series|materials?|exponent [0-9]+) cut (at|to)=truncated
 [a-z_]*share_of[a-z_]*=fraction, weight
-(float|double|an?|the|its|their|per|each) shares?=fraction, weight
 (int|size_t|float|double|char|lmp_vec3|vec[234]) \*?(const )?places?=position, index, offset
-(a|one|each|every|finite|their|odd) places? (that|of|at|in|along|after)=position, index, offset
 (find|chunk|lmp_ggx|surfaces?)_places?=position, index, offset
-(light|cap|alike|same) from all around=ambient, from every point
-light all around=ambient
-[a-z_]*_turn(ed|s)?=rotate
-turned=rotated
+[a-z_]+_turn(ed|s)?=rotate
 (int|void|float|double|lmp_quat) turn=rotate, rotation
-material slots?=material name
-(axis|lobe|look|cap|goes|runs) round=around
-numbered (images|frames)=image sequence
-warp(s|ed)?=remap
 shade_aims?=light direction
 [a-z_]*tabulated_aim=orient
-error by window=windowing filter
 (view|add|read|describe)_looks?=view_shading
 shade-(response|measured)=shade-preintegrated, shade-brdf
 gpu_set_responses=gpu_set_preintegrated_brdfs
+(lmpi_)?sights?(_[a-z]+)?=subtended, hit
+(lmpi_shade_)?overs=layer_mask
+(gpu|render|renderer|override|shade|draw)_([a-z]+_)*fibers(_[a-z]+)?=sheen
+[a-z_]+_left_out(_[a-z]+)?=unsupported, skipped
+[a-z_]*wishes=requests
+(view|has|compositor)_drafts?(_[a-z]+)?=preview
+settle_[a-z]+=choose, resolve, prepare
+[a-z]+_reflectors?=material_constants
+frame(\.|->)host=cpu_shader
 END
 }
 
-# found FOLDER: the lines under it with a word that is not ours.
+# found FOLDER: prints the lines under it with such a name.
 found() {
     words | while IFS== read -r word instead; do
         grep -rnIiwE --exclude-dir=images --exclude-dir=node_modules --exclude=words.sh -e "$word" $1 | sed "s|\$|  <- $instead|" || true
@@ -65,6 +48,6 @@ found() {
 old=$(found "app src include shaders tests fuzz examples cmake docs dev README.md CONTRIBUTING.md CHANGELOG.md CMakeLists.txt")
 [ -z "$old" ] || fail "$old"
 
-# and one would be seen
-printf 'int one_minus = 0; /* of the picture */\n' >"$WORK/planted.c"
-[ "$(found "$WORK/planted.c" | wc -l)" = 2 ] || fail "an old word goes unseen"
+# A planted name must be found.
+printf 'int one_minus = 0; /* of the colour */\n' >"$WORK/planted.c"
+[ "$(found "$WORK/planted.c" | wc -l)" = 2 ] || fail "an old name goes unseen"

@@ -38,25 +38,49 @@ static const lmp_light lights[] = {
       .direction = { 0, 1, 0 },
       .radiance = { .3f, .4f, .9f },
       .ground = { .2f, .1f, .05f } },
+    { .kind = LMP_LIGHT_RECTANGLE,
+      .position = { .5f, 1, -.3f },
+      .half = { { .6f, .1f, 0 }, { 0, 0, .3f } },
+      .radiance = { 2, 3, 4 } },
+    { .kind = LMP_LIGHT_DISK,
+      .position = { -.4f, .9f, .8f },
+      .direction = { 0, -.6f, -.8f },
+      .radius = .7f,
+      .radiance = { 5, 4, 3 } },
+    { .kind = LMP_LIGHT_TUBE,
+      .position = { .2f, .5f, 1 },
+      .half = { { 2, .3f, .1f } },
+      .radius = .04f,
+      .radiance = { 7, 8, 9 } },
+    { .kind = LMP_LIGHT_POLYGON,
+      .position = { 0, 2, 0 },
+      .corner_count = 3,
+      .corner = { { 1, 0, 0 }, { -.5f, 0, .9f }, { -.5f, 0, -.9f } },
+      .two_sided = true,
+      .radiance = { 1, 1, 6 } },
 };
 enum { LIGHTS = sizeof lights / sizeof *lights };
 
 static void print_basis(void) {
-    float sh[COUNT], gradient[3 * COUNT], weights[BANDS];
+    float sh[COUNT], gradient[3 * COUNT], weights[BANDS], product[COUNT];
     lmp_sh_eval(BANDS, direction, sh);
     print("lmp_sh_eval", sh, COUNT);
     lmp_sh_eval_gradient(BANDS, direction, sh, gradient);
     print("lmp_sh_eval_gradient", gradient, 3 * COUNT);
     print("lmp_sh_reconstruct", (float[]) { lmp_sh_reconstruct(BANDS, sh, point) }, 1);
     print("lmp_sh_dot", (float[]) { lmp_sh_dot(BANDS, sh, gradient) }, 1);
-    lmp_sh_window(BANDS, LMP_WINDOW_LANCZOS, 0, weights);
-    print("lmp_sh_window", weights, BANDS);
+    for (int bands = 2; bands <= LMP_SH_FEW_BANDS; bands++) {
+        lmp_sh_multiply_few(bands, sh, gradient, product);
+        print("lmp_sh_multiply_few", product, LMP_SH_COUNT(bands));
+    }
+    lmp_sh_make_window(BANDS, LMP_WINDOW_LANCZOS, 0, weights);
+    print("lmp_sh_make_window", weights, BANDS);
 }
 
 static void print_rotation(void) {
     float sh[COUNT], rotated[COUNT], matrices[LMP_SH_ROTATION_COUNT(BANDS)];
     lmp_sh_eval(BANDS, direction, sh);
-    lmp_sh_rotation(BANDS, (lmp_quat) { .1f, .7f, -.5f, .5f }, matrices);
+    lmp_sh_make_rotation(BANDS, (lmp_quat) { .1f, .7f, -.5f, .5f }, matrices);
     lmp_sh_rotate(BANDS, matrices, sh, rotated);
     print("lmp_sh_rotate", rotated, COUNT);
     lmp_sh_rotate_z(BANDS, .7f, sh, rotated);
@@ -65,8 +89,8 @@ static void print_rotation(void) {
 
 static void print_lights(void) {
     float sh[3 * COUNT], gradient[3 * COUNT], zonal[BANDS];
-    lmp_sphere_zonal(BANDS, .3f, 1.7f, zonal);
-    print("lmp_sphere_zonal", zonal, BANDS);
+    lmp_sphere_project_zonal(BANDS, .3f, 1.7f, zonal);
+    print("lmp_sphere_project_zonal", zonal, BANDS);
     lmp_sphere_project(BANDS, lights[0].position, .3f, point, sh);
     print("lmp_sphere_project", sh, COUNT);
     lmp_sphere_project_gradient(BANDS, lights[0].position, .3f, point, sh, gradient);
@@ -80,12 +104,12 @@ static void print_lights(void) {
 
 static void print_lobes(void) {
     float lambda[BANDS], sh[COUNT];
-    lmp_lobe_phong(BANDS, 37.5f, lambda);
-    print("lmp_lobe_phong", lambda, BANDS);
+    lmp_lobe_make_phong(BANDS, 37.5f, lambda);
+    print("lmp_lobe_make_phong", lambda, BANDS);
     lmp_lobe_project(BANDS, lambda, direction, sh);
     print("lmp_lobe_project", sh, COUNT);
-    lmp_lobe_vmf(BANDS, 11.3f, lambda);
-    print("lmp_lobe_vmf", lambda, BANDS);
+    lmp_lobe_make_vmf(BANDS, 11.3f, lambda);
+    print("lmp_lobe_make_vmf", lambda, BANDS);
 }
 
 static void print_shading(void) {

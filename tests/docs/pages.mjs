@@ -10,7 +10,7 @@ const [work, site, folder] = process.argv.slice(2);
 const widths = { desktop: 1280, phone: 390 };
 const finger = 30; // CSS pixels; WCAG 2.2 asks for 24
 
-// Runs in the page: what is wrong with it, as sentences.
+// Runs in the page, and returns what is wrong with it, as sentences.
 function faults(width, least) {
     const scrolls = (element) => element && (element.scrollWidth > element.clientWidth &&
         /auto|scroll/.test(getComputedStyle(element).overflowX) || scrolls(element.parentElement));
@@ -46,7 +46,7 @@ async function look(page, kind) {
     return [...new Set(found)].map((fault) => `${page} on a ${kind}: ${fault}`);
 }
 
-// In pieces, as browsers draw no image as high as a long page.
+// Taken in pieces, because browsers draw no image as high as a long page.
 async function capture(page, kind) {
     const total = await browser.evaluate('document.documentElement.scrollHeight'), width = widths[kind], height = 1900;
     for (let y = 0, piece = 10; y < total; y += height, piece++) {

@@ -10,7 +10,7 @@ site=$WORK/../site/site
 [ -f "$site/index.html" ] || fail "no site"
 node tests/docs/pages.mjs "$WORK" "$site" || fail "a page does not fit"
 
-# and one that does not fit would be seen
+# A page that does not fit must be found.
 mkdir -p "$WORK/planted"
 cat >"$WORK/planted/index.html" <<'PAGE'
 <!doctype html><meta name="viewport" content="width=device-width"><main><p style="width: 30rem">wide<img src="none.png"></main>

@@ -18,7 +18,7 @@ for document in README.md CONTRIBUTING.md CHANGELOG.md $(ls docs/*.md include/la
     [ -f "$site/$name.html" ] || fail "$document has no page"
 done
 
-# everything a page can be asked for: itself, and its anchors
+# Targets of links: a page, and its anchors.
 while read -r page; do
     name=${page#"$site"/}
     echo "$name"
@@ -29,7 +29,7 @@ twice=$(uniq -d <"$WORK/targets")
 
 (cd "$site" && find . -type f | sed 's,^\./,,') >"$WORK/files"
 
-# dead PAGE…: their links that lead nowhere; pages are named from the site's folder.
+# dead PAGE…: prints their links that lead nowhere; pages are named from the site's folder.
 dead() {
     (cd "$site" && grep -H -o ' \(href\|src\)="[^"]*"' "$@") | sed 's/^\([^:]*\): [a-z]*="\(.*\)"$/\1 \2/' | sort -u |
         awk -v targets="$WORK/targets" -v files="$WORK/files" '
@@ -64,7 +64,7 @@ dead() {
 } >"$WORK/dead"
 [ ! -s "$WORK/dead" ] || fail "dead links, or things of the network: $(cat "$WORK/dead")"
 
-# what the search finds is there, and is found
+# What the search finds exists, and is found.
 sed -n 's/^\["\([^"]*\)","\([^"]*\)",.*/\1#\2/p; ' "$site/docs/site/sections.js" | sed 's/#$//' >"$WORK/found"
 [ "$(wc -l <"$WORK/found")" -gt 200 ] || fail "the search knows only $(wc -l <"$WORK/found") sections"
 grep -vxF -f "$WORK/targets" "$WORK/found" && fail "the search leads nowhere"
@@ -83,19 +83,19 @@ for image in docs/images/*; do
     grep -qF "images/$(basename "$image")" README.md docs/*.md || fail "no document shows $image"
 done
 
-# and a dead link would be seen
+# A dead link must be found.
 printf '<a href="nowhere.html">x</a>\n<a href="index.html#nowhere">x</a>\n' >"$site/planted.html"
 printf '<a href="index.html">x</a>\n<a href="docs/../docs/./viewer.html">x</a>\n<a href="docs/nowhere.png">x</a>\n' >>"$site/planted.html"
 [ "$(dead planted.html | wc -l)" = 3 ] || fail "a dead link goes unseen"
 rm "$site/planted.html"
 
-# the names of files end no sentence of what a header begins with
-for opening in 'preintegrated: (docs/preintegration.md derives it).' 'lampion: each header with all that it builds on:'; do
+# The dot in the name of a file does not end the first sentence of a header.
+for opening in 'preintegrated: (docs/preintegration.md has the derivation).' 'lampion: each header includes those that it builds on:'; do
     tr '\n' ' ' <"$site/include/lampion/${opening%%:*}.h.html" | grep -qF "${opening#*: }</p>" || fail "${opening%%:*}.h begins otherwise"
 done
 
-# a function without a comment is no page
-sed 's,^/\* The version.*,,' include/lampion/base.h >"$WORK/bare.h"
+# A function without a comment must fail.
+sed 's,^/\* Returns the version.*,,' include/lampion/base.h >"$WORK/bare.h"
 if ROOT= API_SOURCES="$WORK/bare.h" pandoc -f docs/site/header.lua "$WORK/bare.h" >/dev/null 2>"$WORK/log"; then
     fail "a function without a comment goes unseen"
 fi

@@ -1,4 +1,4 @@
 # SPDX-License-Identifier: MIT
-# tables.sh PAGE: the measured tables of a page are what docs/site/tables.sh measures.
+# tables.sh PAGE: the measured tables of a page must agree with what docs/site/tables.sh measures.
 set -eu
 exec sh docs/site/tables.sh --check "$BUILD" "$1"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Images of the CPU's device beside OpenGL's: rays and a G-buffer find the same surfaces, but for a
  * few pixels at edges, which are counted. */
-#include "app/render/renderer.h"
+#include "app/render/renderer/renderer.h"
 
 #include "tests/gpu/device.h"
 
@@ -9,7 +9,7 @@
 
 enum { WIDTH = 480, HEIGHT = 270, PIXELS = WIDTH * HEIGHT };
 
-/* Whether a pixel sees another surface than the one beside it, or one that bends. */
+/* Whether a pixel sees another surface than its neighbor, or one whose normal differs. */
 static bool differ(const render_pixel *a, const render_pixel *b) {
     const lmp_vec3 p = a->surface.normal, q = b->surface.normal;
     const lmp_rgb c = a->material.base_color, d = b->material.base_color;
@@ -28,11 +28,12 @@ static bool is_edge(const render_pixel *pixels, int x, int y) {
     return false;
 }
 
-/* The decibels of what both show away from edges. Hardware interpolates between corners that it has
- * moved by up to half of 1/256 of a pixel, and has `less` of them. */
+/* Expects the images to agree within some decibels where both show the same surface away from
+ * edges. Hardware interpolates between corners that it has moved by up to half of 1/256 of a pixel,
+ * and is allowed `less` decibels. */
 static void expect_alike(const char *name, int samples, double decibels, double less) {
     static unsigned char shown[2][3 * PIXELS];
-    cli_error error = { "" };
+    base_error error = { "" };
     scene world;
     expect(scene_load(name, &(scene_options) { .no_cache = true }, &world, &error), &error);
     render_frame frame = frame_of(&world, WIDTH, HEIGHT);

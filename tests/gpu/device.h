@@ -15,14 +15,14 @@
 
 static gpu_context device;
 
-/* Whether the device draws by method m from a scene and lights alone. */
+/* Whether the device draws by method m given only a scene and lights. */
 static inline bool draws_alone(int m) {
     return method_table[m].bands_max[DEVICE_GPU] > 0 && method_table[m].reads == 0;
 }
 
 static int open_device(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     setenv("LAMPION_GL_DEBUG", "fatal", 1);
     if (!gpu_context_create(getenv("LAMPION_TEST_GL_DEVICE"), &device, &error)) {
         print_error("%s\n", error.text);
@@ -38,10 +38,9 @@ static int close_device(void **state) {
     return 0;
 }
 
-/* For main(count, arguments), which ctest asks for one group of tests: runs an array of them if it
- * is the one, by its name or by a word, or if none is named, and counts those that ran and their
- * failures. Groups are apart because a driver that has nothing compiled yet takes long for the
- * shaders of each. */
+/* For main(count, arguments): runs an array of tests if ctest asks for it, by its name or by a
+ * word, or asks for no group, and counts the tests that ran and their failures. Groups are separate
+ * because a driver with an empty cache takes long to compile the shaders of each. */
 #define RUN_GROUP(name) RUN_GROUP_AS(name, #name)
 #define RUN_GROUP_AS(group, word)                                                                  \
     do {                                                                                           \
@@ -52,19 +51,19 @@ static int close_device(void **state) {
     } while (0)
 
 /* Fails the test with the error's text. */
-static inline void expect(bool ok, const cli_error *error) {
+static inline void expect(bool ok, const base_error *error) {
     if (!ok)
         fail_msg("%s", error->text);
 }
 
 static inline gpu_renderer *open_renderer(const scene *world) {
-    cli_error error = { "" };
+    base_error error = { "" };
     gpu_renderer *renderer = gpu_renderer_create(&device, world, &error);
     expect(renderer != NULL, &error);
     return renderer;
 }
 
-/* A frame of the usual bands, or in a test's short form of a few less: llvmpipe takes 9 s to
+/* Returns the usual bands of a frame, or in a test's short form fewer: llvmpipe takes 9 s to
  * compile the field's shader for 10 bands. */
 static inline int usual_bands(void) {
     return check_count(8, LMP_SHADE_BANDS_DEFAULT);
@@ -79,8 +78,8 @@ static inline render_frame frame_of(const scene *world, int width, int height) {
                             .light_count = world->light_count };
 }
 
-/* Lights from number `first` on to positions within the scene's bounds, whatever `--random-lights`
- * does: among what they light. */
+/* Moves lights from number `first` on to positions within the scene's bounds, where they are among
+ * what they light, whatever `--random-lights` does. */
 static inline void stand_within(scene *world, size_t first) {
     uint32_t random = 7;
     for (size_t i = first; i < world->light_count; i++) {
@@ -95,7 +94,7 @@ static inline void stand_within(scene *world, size_t first) {
 }
 
 static inline image render_image(gpu_renderer *renderer, const render_frame *frame) {
-    cli_error error = { "" };
+    base_error error = { "" };
     image pixels;
     expect(gpu_render(renderer, frame, NULL, &error), &error);
     expect(gpu_read_image(renderer, &pixels, &error), &error);
@@ -103,7 +102,7 @@ static inline image render_image(gpu_renderer *renderer, const render_frame *fra
 }
 
 static inline render_pixel *render_pixels(gpu_renderer *renderer, const render_frame *frame) {
-    cli_error error = { "" };
+    base_error error = { "" };
     render_pixel *pixels;
     expect(gpu_render(renderer, frame, NULL, &error), &error);
     expect(gpu_read_pixels(renderer, &pixels, &error), &error);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The same image from both shading devices and every method, in 8 bits, under lights of every kind.
  */
-#include "app/bake/bake.h"
-#include "app/override/override.h"
-#include "app/render/shade/field.h"
-#include "app/render/shade/shade.h"
+#include "app/render/renderer/override.h"
+#include "app/render/shade.h"
+#include "app/render/shade_field.h"
+#include "app/scene/bake.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/kinds.h"
 
@@ -17,18 +17,18 @@ static unsigned char first[3 * PIXELS], second[3 * PIXELS];
 static float exposure;
 
 static void read_pixels(gpu_renderer *renderer, unsigned char *rgb8) {
-    cli_error error = { "" };
+    base_error error = { "" };
     expect(gpu_read_rgb8(renderer, &(image_display) { .exposure = exposure }, rgb8, NULL, &error),
            &error);
 }
 
 static void draw(gpu_renderer *renderer, const render_frame *frame, unsigned char *rgb8) {
-    cli_error error = { "" };
+    base_error error = { "" };
     expect(gpu_render(renderer, frame, NULL, &error), &error);
     read_pixels(renderer, rgb8);
 }
 
-/* Sets the exposure, too, that the program would choose. */
+/* Draws the first image, and sets the exposure that the program would choose. */
 static void draw_first(gpu_renderer *renderer, const render_frame *frame) {
     image pixels = render_image(renderer, frame);
     exposure = image_auto_exposure(&pixels);
@@ -36,7 +36,7 @@ static void draw_first(gpu_renderer *renderer, const render_frame *frame) {
     read_pixels(renderer, first);
 }
 
-/* Pixels of which some channel differs by more than `levels`. */
+/* Counts the pixels of which some channel differs by more than `levels`. */
 static int beyond(int levels) {
     int count = 0;
     for (size_t i = 0; i < PIXELS; i++) {
@@ -57,7 +57,7 @@ typedef struct fixture {
 } fixture;
 
 static void open_fixture(fixture *s, const char *name) {
-    cli_error error = { "" };
+    base_error error = { "" };
     expect(scene_load(name, &(scene_options) { .no_cache = true }, &s->world, &error), &error);
     expect(scene_apply_lights(&s->world, &(scene_lights_options) { .random_count = 20, .seed = 7 },
                               &error),
@@ -78,21 +78,26 @@ static void close_fixture(fixture *s) {
 /* Both devices draw the frame by a method, within one level of 255. */
 static void check_method(fixture *s, method_kind method) {
     s->frame.method = method;
-    s->frame.host = NULL;
+    s->frame.cpu_shader = NULL;
     draw_first(s->renderer, &s->frame);
-    s->frame.host = shade_frame;
+    s->frame.cpu_shader = shade_frame;
     draw(s->renderer, &s->frame, second);
     assert_int_equal(beyond(1), 0);
 }
 
-static void check_every_method(fixture *s) {
-    cli_error error = { "" };
+static shade_field *attach_field(fixture *s) {
+    base_error error = { "" };
     const shade_field_options options = { .grid = { 30, 20, 30 },
                                           .grid_given = true,
                                           .error = SHADE_FIELD_ERROR };
     shade_field *field = shade_field_create(&s->world, &options, s->frame.bands, &error);
     expect(field != NULL, &error);
     shade_field_attach(field, &s->frame);
+    return field;
+}
+
+static void check_every_method(fixture *s) {
+    shade_field *field = attach_field(s);
     for (int m = 0; m < METHODS; m++)
         if (method_table[m].bands_max[DEVICE_GPU] > 0)
             check_method(s, (method_kind)m);
@@ -137,9 +142,9 @@ static void parallel_rays_are_drawn_alike(void **state) {
     close_fixture(&f);
 }
 
-/* Ambient light of no symmetry. */
+/* Makes ambient light without any symmetry. */
 static void open_sky(environment *sky) {
-    cli_error error;
+    base_error error;
     *sky = (environment) { .azimuth = 0.4f };
     expect(image_create(&sky->light, 32, 16, &error), &error);
     for (int i = 0; i < 3 * 32 * 16; i++)
@@ -148,7 +153,7 @@ static void open_sky(environment *sky) {
     expect(environment_project(sky, LMP_SHADE_BANDS_DEFAULT, &error), &error);
 }
 
-/* Its light on the surfaces and its image past them; lights beside it, and without them. */
+/* The environment lights surfaces and is seen past them, with other lights and without. */
 static void an_environment_is_drawn_alike(void **state) {
     (void)state;
     fixture s;
@@ -160,7 +165,7 @@ static void an_environment_is_drawn_alike(void **state) {
     s.frame.lobes = lobes;
     for (int pass = 0; pass < 2; pass++, s.frame.light_count = 0)
         check_every_method(&s);
-    /* Up in the sky is nothing but the backdrop. */
+    /* A camera that looks up sees only the backdrop. */
     memcpy(s.frame.camera.target, s.frame.camera.eye, sizeof s.frame.camera.eye);
     s.frame.camera.target[0] += 0.1f;
     s.frame.camera.target[1] += 1;
@@ -215,7 +220,7 @@ static void preintegrated_images_of_many_bands_are_those_of_sums(void **state) {
     preintegrated_images_are_those_of_sums((const int[3]) { 16, 20 });
 }
 
-/* Tabulated materials on both devices; the gold is read from its lobe, the last by its bands. */
+/* The materials are tabulated; the gold is read from its lobe, the last one from its bands. */
 static void tabulated_materials_are_drawn_alike_by_sums_and_by_tables(void **state) {
     (void)state;
     fixture s;
@@ -231,14 +236,14 @@ static void tabulated_materials_are_drawn_alike_by_sums_and_by_tables(void **sta
         const lmp_brdf_table_desc desc = { .bands = 10,
                                            .window = LMP_WINDOW_HANNING,
                                            .rings_max = 64 };
-        assert_int_equal(lmp_sgd_find(names[i], &sgd), LMP_OK);
+        assert_int_equal(lmp_brdf_find_sgd(names[i], &sgd), LMP_OK);
         assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
         assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &tables[i]), LMP_OK);
         lmp_brdf_destroy(brdf);
         assert_int_equal(lmp_preintegrated_brdf_create(NULL, NULL, tables[i], &brdfs[i]), LMP_OK);
     }
     int uses[8] = { -1, 1, 0 };
-    cli_error error = { "" };
+    base_error error = { "" };
     expect(gpu_set_tables(s.renderer, (const lmp_brdf_table *const *)tables, 2, uses, &error),
            &error);
     s.frame.method = METHOD_ZONAL;
@@ -249,11 +254,22 @@ static void tabulated_materials_are_drawn_alike_by_sums_and_by_tables(void **sta
     for (int pass = 0; pass < 3; pass++) {
         const lmp_preintegrated_brdf *given[2] = { brdfs[0], pass == 2 ? NULL : brdfs[1] };
         gpu_set_preintegrated_brdfs(s.renderer, given);
-        s.frame.host = pass == 1 ? shade_frame : NULL;
+        s.frame.cpu_shader = pass == 1 ? shade_frame : NULL;
         draw(s.renderer, &s.frame, second);
         assert_true(beyond(1) <= PIXELS / 1000);
         assert_int_equal(beyond(2), 0);
     }
+    /* Under a sky both are summed by their bands, though one alone has been uploaded for that. */
+    environment sky;
+    open_sky(&sky);
+    gpu_set_environment(s.renderer, &sky);
+    s.frame.cpu_shader = shade_frame;
+    draw_first(s.renderer, &s.frame);
+    s.frame.cpu_shader = NULL;
+    draw(s.renderer, &s.frame, second);
+    assert_true(beyond(1) <= PIXELS / 1000);
+    assert_int_equal(beyond(2), 0);
+    environment_free(&sky);
     lmp_preintegrated_lobe_destroy(lobes);
     close_fixture(&s);
     for (int i = 0; i < 2; i++) {
@@ -277,19 +293,31 @@ static void dress(scene *world, scene_material *all) {
     world->materials = all;
 }
 
-/* Pass 0: under lights; 1: with more bands than fibers have, as from 21 on; 2: under a sky. */
+static void open_dressed(fixture *s, scene_material *materials) {
+    open_fixture(s, "builtin:balls");
+    gpu_renderer_destroy(s->renderer);
+    dress(&s->world, materials);
+    s->renderer = open_renderer(&s->world);
+}
+
+/* Gives the renderer tables of sheen of so many bands, which `tables` keeps. */
+static void bake_sheen(fixture *s, int bands, override_set *tables) {
+    base_error error = { "" };
+    override_free(tables);
+    expect(override_bake_sheen(tables, &s->world, bands, s->frame.window, &error), &error);
+    override_set lent = *tables; /* the renderer keeps the tables, not the list of them */
+    expect(override_apply(&lent, &s->world, &(any_renderer) { .gl = s->renderer }, &error), &error);
+}
+
+/* Passes: 0 under lights; 1 with more bands than sheen has, as from 21 on; 2 under a sky. */
 static void sheen_is_drawn_alike(int first_pass, int last_pass) {
     fixture s;
     environment sky;
     override_set tables = { .count = 0 };
-    cli_error error = { "" };
-    open_fixture(&s, "builtin:balls");
-    gpu_renderer_destroy(s.renderer);
     scene_material materials[DRESSED];
-    dress(&s.world, materials);
-    s.renderer = open_renderer(&s.world);
+    open_dressed(&s, materials);
     open_sky(&sky);
-    const int fiber_bands[] = { 6, 4, 6 };
+    const int sheen_bands[] = { 6, 4, 6 };
     s.frame.bands = 6;
     for (int pass = first_pass; pass <= last_pass; pass++) {
         s.frame.window = pass == 0 ? LMP_WINDOW_HANNING : LMP_WINDOW_NONE;
@@ -297,10 +325,7 @@ static void sheen_is_drawn_alike(int first_pass, int last_pass) {
             gpu_set_environment(s.renderer, &sky);
         lmp_preintegrated_lobe *lobes = lobe_of(&s.frame);
         s.frame.lobes = lobes;
-        override_free(&tables);
-        expect(override_bake_fibers(&tables, &s.world, fiber_bands[pass], s.frame.window, &error) &&
-                   override_apply(&tables, &s.world, &(any_renderer) { .gl = s.renderer }, &error),
-               &error);
+        bake_sheen(&s, sheen_bands[pass], &tables);
         if (pass == 0)
             check_every_method(&s);
         else
@@ -322,6 +347,33 @@ static void sheen_is_drawn_alike_by_more_bands_and_under_a_sky(void **state) {
     sheen_is_drawn_alike(1, 2);
 }
 
+/* The lobes of GGX, a sky and a field are read from storage blocks on hardware, and fetched from
+ * textures on software; any device can do both. */
+static void arrays_are_read_alike_in_both_forms(void **state) {
+    (void)state;
+    const bool software = device.software;
+    for (int form = 0; form < 2; form++) {
+        fixture s;
+        environment sky;
+        device.software = form;
+        open_fixture(&s, "builtin:ball");
+        open_sky(&sky);
+        gpu_set_environment(s.renderer, &sky);
+        s.frame.bands = 2;
+        s.frame.method = METHOD_FIELD;
+        shade_field *field = attach_field(&s);
+        if (form == 0)
+            draw_first(s.renderer, &s.frame);
+        else
+            draw(s.renderer, &s.frame, second);
+        shade_field_destroy(field);
+        close_fixture(&s);
+        environment_free(&sky);
+    }
+    device.software = software;
+    assert_int_equal(beyond(0), 0);
+}
+
 static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     (void)state;
     fixture s;
@@ -332,7 +384,7 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     draw(s.renderer, &s.frame, second);
     assert_int_equal(beyond(1), 0);
     const int bands = s.frame.bands;
-    s.frame.bands = 1; /* which has no table */
+    s.frame.bands = 1; /* one band has no table */
     s.frame.method = METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
     for (int m = 0; m < 2; m++) {
@@ -341,14 +393,15 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
         assert_int_equal(beyond(1), 0);
     }
     s.frame.bands = bands;
-    /* the tabulation loses the digits of far lights, and Diracs wholly */
+    /* the tabulation loses digits of far lights, and has no Diracs */
     s.frame.light_count -= KINDS;
     s.frame.method = METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
     s.frame.method = METHOD_TABULATED_Z;
     draw(s.renderer, &s.frame, second);
     assert_true(beyond(1) <= PIXELS / 500);
-    /* whose surface part of the scene lies in, where its cap is more than half of all directions */
+    /* A light around part of the scene's surfaces, whose cap is more than half of all directions.
+     */
     const scene_light around = {
         .emitter = { .position = { 0, 1, 0 }, .radius = 4, .radiance = { 0.3f, 0.2f, 0.1f } },
         .hidden = 1
@@ -363,7 +416,7 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     close_fixture(&s);
 }
 
-/* Toward grazing views five lobes add up the errors of their tables, each a part of a high peak. */
+/* Toward grazing views the errors of five lobes' tables add up, each relative to a high peak. */
 static void assert_narrow_lobes_alike(void) {
     assert_true(beyond(1) <= PIXELS / 1000);
     assert_true(beyond(2) <= PIXELS / 10000);
@@ -375,21 +428,21 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_tables(void **state) 
     fixture s;
     open_fixture(&s, "builtin:balls");
     s.frame.bands = 100;
-    s.frame.host = shade_frame;
+    s.frame.cpu_shader = shade_frame;
     draw_first(s.renderer, &s.frame);
     lmp_preintegrated_lobe *lobe = lobe_of(&s.frame);
     s.frame.lobes = lobe;
     s.frame.method = METHOD_PREINTEGRATED;
     draw(s.renderer, &s.frame, second);
     assert_narrow_lobes_alike();
-    s.frame.host = NULL;
+    s.frame.cpu_shader = NULL;
     draw(s.renderer, &s.frame, second);
     assert_narrow_lobes_alike();
     lmp_preintegrated_lobe_destroy(lobe);
     close_fixture(&s);
 }
 
-/* All of them, or those of one group: ctest runs each beside others, for drivers compile for long.
+/* Runs all groups or a named one: ctest runs each beside others, because drivers compile for long.
  */
 int main(int count, char **arguments) {
     const struct CMUnitTest images[] = {
@@ -398,6 +451,7 @@ int main(int count, char **arguments) {
     };
     const struct CMUnitTest environments[] = {
         cmocka_unit_test(an_environment_is_drawn_alike),
+        cmocka_unit_test(arrays_are_read_alike_in_both_forms),
     };
     const struct CMUnitTest few[] = {
         cmocka_unit_test(preintegrated_images_of_few_bands_are_those_of_sums),

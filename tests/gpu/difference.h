@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* difference.h - how far two images are from each other, in parts of what is bright around. */
+/* difference.h - how far two images are apart, relative to what is bright nearby. */
 #ifndef LAMPION_TESTS_GPU_DIFFERENCE_H
 #define LAMPION_TESTS_GPU_DIFFERENCE_H
 
@@ -9,7 +9,7 @@
 
 enum { NEIGHBORS = 8 };
 
-/* The brightest value around a pixel. */
+/* Returns the brightest value around a pixel. */
 static inline float local_peak(const image *pixels, int x, int y) {
     float peak = 0;
     for (int j = y - NEIGHBORS; j <= y + NEIGHBORS; j++)
@@ -21,7 +21,7 @@ static inline float local_peak(const image *pixels, int x, int y) {
 }
 
 typedef struct difference {
-    double worst, rms; /* in parts of the local peak */
+    double worst, rms; /* relative to the local peak */
 } difference;
 
 static inline difference differ(const image *a, const image *b) {
@@ -41,7 +41,7 @@ static inline difference differ(const image *a, const image *b) {
     return d;
 }
 
-/* What rounding makes of sums of coefficients, which cancel. */
+/* Expects a difference no larger than the rounding of sums of coefficients, which cancel. */
 static inline void expect_same(const char *what, difference d) {
     print_message("%s: at most %.1e of the local peak, %.1e in root mean square\n", what, d.worst,
                   d.rms);

@@ -36,7 +36,7 @@ static void positions_and_sides_are_where_the_camera_says(void **state) {
     const render_pixel back = pixel_at(renderer, &frame, 32, 32);
     assert_int_equal(back.kind, RENDER_SURFACE);
     assert_true(back.surface.normal.z <= -0.9999f);
-    frame = look_at(world, 3, -1); /* one-sided */
+    frame = look_at(world, 3, -1); /* a sheet with one side */
     assert_int_equal(pixel_at(renderer, &frame, 32, 32).kind, RENDER_NONE);
     gpu_renderer_destroy(renderer);
 }
@@ -58,7 +58,7 @@ static void vertices_color_what_is_unlit(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
-/* 8 pixels a unit, at any distance; a light, too. */
+/* Parallel rays show 8 pixels per unit at any distance, of a light too. */
 static void parallel_rays_see_the_same_from_everywhere(void **state) {
     (void)state;
     const scene *world = make_sheets();
@@ -128,7 +128,8 @@ static void materials_are_those_of_the_library(void **state) {
 
 /* --- glowing spheres -------------------------------------------------------------------------- */
 
-/* A pixel's center on the sphere, off it, or so near the outline (±0) that rounding decides. */
+/* Whether a pixel's center lies on the sphere, off it, or so near the outline (0) that rounding
+ * decides. */
 static int side_of_outline(const render_frame *frame, const scene_light *light, int x, int y) {
     const double step = 2.0 * tan(0.5 * (double)frame->camera.fov) / SIDE;
     const double ray[3] = { (x + 0.5 - SIDE / 2) * step, -(y + 0.5 - SIDE / 2) * step, -1 };
@@ -147,7 +148,7 @@ static int side_of_outline(const render_frame *frame, const scene_light *light, 
 static void light_spheres_are_exact_and_hide_what_is_behind(void **state) {
     (void)state;
     const scene *world = make_sheets();
-    /* half of it sticks out of the sheet's front */
+    /* A light of which half sticks out of the sheet's front. */
     sheet.lights[0] = (scene_light) {
         .emitter = { .position = { 0.2f, 0.1f, 0 }, .radius = 0.6f, .radiance = { 5, 1e9f, 1e-9f } }
     };
@@ -216,7 +217,7 @@ static void samples_cover_a_pixel_in_part(void **state) {
 static void the_device_and_the_cpu_tone_map_alike(void **state) {
     (void)state;
     static unsigned char on_device[3 * PIXELS], on_cpu[3 * PIXELS];
-    cli_error error = { "" };
+    base_error error = { "" };
     const scene *world = make_sheets();
     sheet.lights[0] = (scene_light) {
         .emitter = { .position = { 0.5f, 0.5f, 1 }, .radius = 0.3f, .radiance = { 5, 40, 0.2f } }
@@ -241,7 +242,7 @@ static void the_device_and_the_cpu_tone_map_alike(void **state) {
 static void eight_bit_images_are_where_the_camera_says(void **state) {
     (void)state;
     static unsigned char rgb8[3 * PIXELS];
-    cli_error error = { "" };
+    base_error error = { "" };
     const scene *world = make_sheets();
     sheet.lights[0] = (scene_light) {
         .emitter = { .position = { 0, 0, 50 }, .radius = 0.1f, .radiance = { 1e6f, 1e6f, 1e6f } }
@@ -252,7 +253,7 @@ static void eight_bit_images_are_where_the_camera_says(void **state) {
     for (int m = 0; m < METHODS_TIMED; m++) {
         frame.method = (method_kind)m;
         if (method_table[m].reads & (METHOD_READS_PREINTEGRATED | METHOD_READS_FIELD))
-            continue; /* wants lobes, or a field */
+            continue; /* needs lobes, or a field */
         expect(gpu_render(renderer, &frame, NULL, &error), &error);
         expect(gpu_read_rgb8(renderer, &(image_display) { .exposure = 1 }, rgb8, NULL, &error),
                &error);
@@ -273,7 +274,7 @@ static void impossible_frames_are_refused_with_a_reason(void **state) {
     const scene *world = make_sheets();
     gpu_renderer *renderer = open_renderer(world);
     render_frame frame = look_at(world, 0, 1);
-    cli_error error = { "" };
+    base_error error = { "" };
     frame.width = GPU_SIZE_MAX + 1;
     assert_false(gpu_render(renderer, &frame, NULL, &error));
     assert_non_null(strstr(error.text, "beyond"));
@@ -295,7 +296,7 @@ static void bands_up_to_the_limit_of_a_method_are_drawn(void **state) {
     gpu_renderer *renderer = open_renderer(world);
     render_frame frame = look_at(world, 0, 1);
     for (int m = 0; m < METHODS; m++) {
-        cli_error error = { "" };
+        base_error error = { "" };
         if (!draws_alone(m))
             continue;
         char limit[32];
@@ -312,7 +313,7 @@ static void bands_up_to_the_limit_of_a_method_are_drawn(void **state) {
 
 static void unknown_devices_are_refused_with_what_was_found(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     gpu_context context;
     assert_false(gpu_context_create("99", &context, &error));
     assert_non_null(strstr(error.text, "no such OpenGL device"));
@@ -326,7 +327,7 @@ static void complaints_of_opengl_are_fatal_here(void **state) {
     assert_true(child >= 0);
     if (child == 0) {
         gpu_context context;
-        cli_error error = { "" };
+        base_error error = { "" };
         signal(SIGABRT, SIG_DFL);
         close(STDERR_FILENO);
         if (gpu_context_create(getenv("LAMPION_TEST_GL_DEVICE"), &context, &error))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Edges: of surfaces, which samples smooth, and of the image, beyond which meshes are left out. */
+/* Edges: of surfaces, which samples smooth, and of the image, beyond which meshes are culled. */
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/placed.h"
@@ -19,20 +19,20 @@ typedef struct tiles {
     scene world;
 } tiles;
 
-static void lay_tile(tiles *t, int i, float x, float y, float half) {
+static void lay_tile(tiles *t, int i, float x, float y, float half_size) {
     static const float corners[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
     static const uint32_t order[6] = { 0, 1, 2, 0, 2, 3 };
     for (int k = 0; k < 4; k++)
-        t->vertices[4 * i + k] =
-            (scene_vertex) { .position = { x + half * corners[k][0], y + half * corners[k][1], 0 },
-                             .normal = { 0, 0, 1 },
-                             .tangent = { 1, 0, 0, 1 } };
+        t->vertices[4 * i + k] = (scene_vertex) { .position = { x + half_size * corners[k][0],
+                                                                y + half_size * corners[k][1], 0 },
+                                                  .normal = { 0, 0, 1 },
+                                                  .tangent = { 1, 0, 0, 1 } };
     for (int k = 0; k < 6; k++)
         t->indices[6 * i + k] = order[k] + 4 * (uint32_t)i;
     t->meshes[i] = (scene_mesh) { .first_index = 6 * (uint32_t)i,
                                   .index_count = 6,
-                                  .minimum = { x - half, y - half, 0 },
-                                  .maximum = { x + half, y + half, 0 } };
+                                  .minimum = { x - half_size, y - half_size, 0 },
+                                  .maximum = { x + half_size, y + half_size, 0 } };
 }
 
 static void open_tiles(tiles *t, size_t count) {
@@ -54,7 +54,8 @@ static void open_tiles(tiles *t, size_t count) {
                          .name = "tiles" };
 }
 
-/* Of a field of view, or of parallel rays as high. From there 1 is half the image's height. */
+/* A frame with a field of view, or with parallel rays as high. At this distance 1 is half the
+ * image's height. */
 static render_frame look_from(const scene *world, float x, float y, bool parallel) {
     return (render_frame) { .width = SIDE,
                             .height = SIDE,
@@ -74,8 +75,8 @@ static image draw_tiles(const scene *world, const render_frame *frame) {
     return pixels;
 }
 
-/* The bounds of a mesh tell what need not be drawn; they change no image. */
-static void meshes_are_left_out_only_where_they_are_not_seen(void **state) {
+/* The bounds of a mesh decide whether it is drawn, and must not change the image. */
+static void meshes_are_culled_only_where_they_are_not_seen(void **state) {
     (void)state;
     static tiles t;
     for (int i = 0; i < MESHES; i++)
@@ -131,7 +132,7 @@ static void samples_halve_pixels_on_every_side(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(meshes_are_left_out_only_where_they_are_not_seen),
+        cmocka_unit_test(meshes_are_culled_only_where_they_are_not_seen),
         cmocka_unit_test(samples_halve_pixels_on_every_side),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);

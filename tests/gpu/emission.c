@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What a material emits comes out of a .exr as its file says (KHR_materials_emissive_strength), on
- * every device, within half's precision of 2^-11 and far beyond half's largest number. */
+/* What a material emits is in the .exr as its file says (KHR_materials_emissive_strength), on every
+ * device, within half's precision of 2^-11 and far beyond half's largest number. */
 #include "app/image/image.h"
-#include "app/render/renderer.h"
-#include "app/render/shade/shade.h"
+#include "app/render/renderer/renderer.h"
+#include "app/render/shade.h"
 #include "tests/gpu/device.h"
 #include "tests/program/folder.h"
 
@@ -11,7 +11,7 @@
 
 #define HALF 4.8828125e-4
 
-/* A triangle across all of the view, in the plane y = 0, black but for its emission. */
+/* A triangle across the whole view, in the plane y = 0, black except for its emission. */
 static const char triangle[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
@@ -23,9 +23,9 @@ static const char triangle[] =
     "\"uri\":\"data:application/octet-stream;base64,"
     "AACAwAAAAAAAAIBAAACAQAAAAAAAAIBAAAAAAAAAAAAAAIDA\"}]}";
 
-/* The image as it comes out of a .exr. */
+/* Draws an image and reads it back from a .exr. */
 static image draw(any_renderer *renderer, const render_frame *frame) {
-    cli_error error = { "" };
+    base_error error = { "" };
     image drawn, read;
     expect(renderer_draw(renderer, frame, NULL, &error), &error);
     expect(renderer_read_image(renderer, &drawn, &error), &error);
@@ -44,31 +44,31 @@ static void expect_emission(any_renderer *renderer, const render_frame *frame, d
     image_free(&pixels);
 }
 
-/* One sample a pixel, which comes out as it is, and two, which are summed. */
+/* With one sample per pixel values are copied, with two they are summed. */
 static void expect_drawn(const scene *world, const render_device *opened, double strength) {
-    cli_error error = { "" };
+    base_error error = { "" };
     any_renderer *renderer = renderer_create(opened, &error);
     expect(renderer != NULL, &error);
     render_frame frame = frame_of(world, 8, 8);
     frame.camera = (scene_camera) { .eye = { 0, 1, 0 }, .up = { 0, 0, -1 }, .fov = 1 };
     frame.light_count = 0;
     for (frame.samples = 1; frame.samples <= 2; frame.samples++) {
-        frame.host = NULL;
+        frame.cpu_shader = NULL;
         expect_emission(renderer, &frame, strength);
-        frame.host = shade_frame;
+        frame.cpu_shader = shade_frame;
         expect_emission(renderer, &frame, strength);
     }
     renderer_destroy(renderer);
 }
 
-/* By shaders, by the library from a G-buffer, and by rays. */
+/* The image is drawn by shaders, by the library from a G-buffer, and by rays. */
 static void emission_is_what_the_file_says(void **state) {
     (void)state;
     static const char *const strengths[] = { "0.02", "1", "7", "65000", "1e6", "1e18" };
     for (size_t i = 0; i < sizeof strengths / sizeof *strengths; i++) {
         char text[sizeof triangle + 16];
         scene world;
-        cli_error error = { "" };
+        base_error error = { "" };
         render_device gl, rays;
         snprintf(text, sizeof text, triangle, strengths[i]);
         folder_write_text("triangle.gltf", text);

@@ -5,11 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The library's images by the field and by all lights, in parts of the local peak: the field's own
- * error, and what the bands of far lights lack of the diffuse lobe, which is exact by sums. */
+/* Compares the library's images by the field and by all lights, relative to the local peak. They
+ * differ by the field's own error, and by what the bands of far lights lack of the diffuse lobe,
+ * which sums treat exactly. */
 static void differ_from_sums(gpu_renderer *renderer, render_frame *frame, shade_field *field,
                              double worst, double rms) {
-    frame->host = shade_frame;
+    frame->cpu_shader = shade_frame;
     image by_field = render_by(renderer, frame, METHOD_FIELD, field);
     image by_sums = render_by(renderer, frame, METHOD_ZONAL, NULL);
     const difference d = differ(&by_field, &by_sums);
@@ -48,7 +49,7 @@ static void every_kind_of_light_is_drawn(void **state) {
     scene_free(&world);
 }
 
-/* The camera moves on, too: its nodes are computed with the lights as they are then. */
+/* The camera moves on too: its nodes are computed with the lights as they are then. */
 static void lights_that_move_leave_the_image_of_where_they_are(void **state) {
     (void)state;
     open_world("builtin:atrium", 100);
@@ -56,7 +57,7 @@ static void lights_that_move_leave_the_image_of_where_they_are(void **state) {
     render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     shade_field *moving = open_field(5, true), *fresh = open_field(5, false);
     frame.bands = 5;
-    frame.host = shade_frame;
+    frame.cpu_shader = shade_frame;
     for (int step = 0; step < 3; step++) {
         for (int i = 0; i < 10; i++)
             world.lights[7 * i + step].emitter.position.y -= 0.7f;
@@ -117,7 +118,7 @@ static void shaders_draw_every_kind_of_light(void **state) {
     scene_free(&world);
 }
 
-/* So many in one place are together one of their sum. */
+/* Many equal lights in one place act as one light of their sum. */
 static void expect_all_count(gpu_renderer *renderer, render_frame *frame, const image *one,
                              const scene_light *light, size_t count) {
     for (size_t i = 0; i < count; i++) {
@@ -139,7 +140,8 @@ static void expect_all_count(gpu_renderer *renderer, render_frame *frame, const 
     image_free(&all);
 }
 
-/* As many as a frame may have, by the shader and by the library, and not one more. */
+/* The most lights of a frame are drawn, by the shader and by the library, and one more is refused.
+ */
 static void tens_of_thousands_of_lights_all_count(void **state) {
     (void)state;
     open_world("builtin:ball", 1);
@@ -148,9 +150,9 @@ static void tens_of_thousands_of_lights_all_count(void **state) {
     frame.bands = 3;
     image one = render_by(renderer, &frame, METHOD_ZONAL, NULL);
     const scene_light light = world.lights[0];
-    for (int host = 0; host < 2; host++) {
-        cli_error error = { "" };
-        frame.host = host ? shade_frame : NULL;
+    for (int on_cpu = 0; on_cpu < 2; on_cpu++) {
+        base_error error = { "" };
+        frame.cpu_shader = on_cpu ? shade_frame : NULL;
         const size_t most = gpu_lights_max(&device, &frame);
         expect_all_count(renderer, &frame, &one, &light, most);
         frame.light_count = most + 1;
@@ -162,7 +164,7 @@ static void tens_of_thousands_of_lights_all_count(void **state) {
     scene_free(&world);
 }
 
-/* A grid that ends within the scene: outside of it every light is summed. */
+/* The grid ends within the scene: outside it every light is summed. */
 static void shaders_sum_every_light_outside_the_grid(void **state) {
     (void)state;
     open_world("builtin:balls", 20);
@@ -176,8 +178,8 @@ static void shaders_sum_every_light_outside_the_grid(void **state) {
     scene_free(&world);
 }
 
-/* Nodes and lists are uploaded again, by both ways in which lights come to be where they are; one
- * light fewer is another change. */
+/* Nodes and lists are uploaded again for both ways in which lights move; removing a light is
+ * another change. */
 static void shaders_follow_lights_that_move(void **state) {
     (void)state;
     open_world("builtin:atrium", 100);
@@ -191,9 +193,9 @@ static void shaders_follow_lights_that_move(void **state) {
         frame.light_count = step < 3 ? 100 : 99;
         image a = render_by(renderer, &frame, METHOD_FIELD, moving);
         image again = render_by(renderer, &frame, METHOD_FIELD, moving);
-        frame.host = shade_frame;
+        frame.cpu_shader = shade_frame;
         image b = render_by(renderer, &frame, METHOD_FIELD, fresh);
-        frame.host = NULL;
+        frame.cpu_shader = NULL;
         assert_memory_equal(a.rgb, again.rgb, 3 * WIDTH * HEIGHT * sizeof(float));
         expect_same("moved", differ(&a, &b));
         image_free(&a);
@@ -208,7 +210,7 @@ static void shaders_follow_lights_that_move(void **state) {
 
 static void fields_larger_than_a_buffer_are_refused(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     gpu_context small = device;
     small.storage_max = 1 << 20;
     open_world("builtin:balls", 2);
@@ -234,7 +236,7 @@ static void fields_larger_than_a_buffer_are_refused(void **state) {
 
 static void impossible_grids_are_refused_with_a_reason(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     const shade_field_options options = { .grid = { 1024, 1024, 1024 },
                                           .grid_given = true,
                                           .error = 0.05f };
@@ -244,11 +246,11 @@ static void impossible_grids_are_refused_with_a_reason(void **state) {
     scene_free(&world);
 }
 
-/* Of the nodes asked for, or of as many as are chosen, the first lies before the scene and the last
- * past it, no further than a cell. */
+/* Whether the nodes are given or chosen, the first lies before the scene and the last past it, no
+ * further than a cell. */
 static void grids_cover_the_scene(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     open_world("builtin:atrium", 3);
     for (int given = 0; given < 2; given++) {
         const shade_field_options options = { .grid = { 9, 5, 12 },

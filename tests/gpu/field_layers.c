@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* Shaders draw by a field what is more than lobes: tabulated materials, coats and sheen. */
-#include "app/override/override.h"
+/* Shaders shade by a field what lobes alone cannot: tabulated materials, coats and sheen. */
+#include "app/render/renderer/override.h"
 #include "tests/gpu/fields.h"
 
 #include <stdlib.h>
 
-/* Every material is cloth, and every third lies under a coat: coats and fibers reflect what the
- * field gives there. Fibers that sum lights are off by more. */
+/* Every material is cloth, and every third lies under a coat; coats and sheen reflect what the
+ * field gives there. Sheen under sums of lights would differ by more. */
 static void shaders_draw_coats_and_sheen(void **state) {
     (void)state;
     override_set tables = { .count = 0 };
-    cli_error error = { "" };
+    base_error error = { "" };
     open_world("builtin:balls", 40);
     scene_material cloths[64];
     assert_true(world.material_count <= 64);
@@ -26,9 +26,9 @@ static void shaders_draw_coats_and_sheen(void **state) {
     gpu_renderer *renderer = open_renderer(&world);
     render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = 5;
-    /* Sums that ring below 0 are clamped table by table by the library, once by the shader. */
+    /* The library clamps sums that ring below 0 table by table, the shader once. */
     frame.window = LMP_WINDOW_HANNING;
-    expect(override_bake_fibers(&tables, &world, frame.bands, frame.window, &error) &&
+    expect(override_bake_sheen(&tables, &world, frame.bands, frame.window, &error) &&
                override_apply(&tables, &world, &(any_renderer) { .gl = renderer }, &error),
            &error);
     shade_field *field = open_field_within(frame.bands, false, device.storage_max);
@@ -52,29 +52,29 @@ static lmp_brdf_table *table_of(lmp_brdf *brdf, int bands) {
     return table;
 }
 
-/* Devices interpolate tables differently: what is the same is by how much a field's image is off
- * from that of sums. */
+/* Devices interpolate tables differently; what must agree is how far a field's image is from that
+ * of sums. */
 static difference deviations_differ(gpu_renderer *renderer, render_frame *frame,
                                     shade_field *field) {
     image sums[2], by_field[2];
-    for (int host = 0; host < 2; host++) {
-        frame->host = host ? shade_frame : NULL;
-        sums[host] = render_by(renderer, frame, METHOD_ZONAL, NULL);
-        by_field[host] = render_by(renderer, frame, METHOD_FIELD, field);
+    for (int on_cpu = 0; on_cpu < 2; on_cpu++) {
+        frame->cpu_shader = on_cpu ? shade_frame : NULL;
+        sums[on_cpu] = render_by(renderer, frame, METHOD_ZONAL, NULL);
+        by_field[on_cpu] = render_by(renderer, frame, METHOD_FIELD, field);
     }
     for (size_t i = 0; i < (size_t)3 * WIDTH * HEIGHT; i++)
         by_field[0].rgb[i] += sums[1].rgb[i] - sums[0].rgb[i];
     const difference d = differ(&by_field[0], &by_field[1]);
-    for (int host = 0; host < 2; host++) {
-        image_free(&sums[host]);
-        image_free(&by_field[host]);
+    for (int on_cpu = 0; on_cpu < 2; on_cpu++) {
+        image_free(&sums[on_cpu]);
+        image_free(&by_field[on_cpu]);
     }
     return d;
 }
 
-/* Every material by one table, and some surfaces outside of the grid. */
+/* All materials share one table, and some surfaces lie outside the grid. */
 static void expect_same_by_table(const char *what, lmp_brdf_table *table, int bands) {
-    cli_error error = { "" };
+    base_error error = { "" };
     const int uses[64] = { 0 };
     open_every_kind();
     assert_true(world.material_count <= 64);

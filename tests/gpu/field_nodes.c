@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Shaders compute the nodes of a field as the library does. */
-#include "app/render/gl/internal.h"
-#include "app/render/shade/field.h"
-#include "app/render/shade/shade.h"
-#include "app/timing/timing.h"
+#include "app/base/timing.h"
+#include "app/render/gl/state.h"
+#include "app/render/shade.h"
+#include "app/render/shade_field.h"
 #include "tests/gpu/difference.h"
 #include "tests/oracle/kinds.h"
 
@@ -13,16 +13,16 @@ typedef struct fixture {
     scene world;
     gpu_renderer *renderer;
     scene_light lights[LIGHTS_MAX];
-    lmp_light emitters[LIGHTS_MAX]; /* the same */
+    lmp_light emitters[LIGHTS_MAX]; /* the same lights for the library */
     size_t count;
     lmp_field *field;
     uint64_t stamp;
 } fixture;
 static fixture f;
 
-/* A renderer that computes nodes, on software, too. */
+/* Opens a renderer that computes nodes, on software devices too. */
 static void open_fixture(const char *name) {
-    cli_error error = { "" };
+    base_error error = { "" };
     gpu_context context = device;
     context.computes_fields = true;
     expect(scene_load(name, &(scene_options) { .no_cache = true }, &f.world, &error), &error);
@@ -54,7 +54,7 @@ static lmp_vec3 random_position(float low, float high) {
                         (float)check_random_between((double)low, (double)high) };
 }
 
-/* Of every kind; on and beside nodes, around some, outside the grid and far away. */
+/* Adds lights of every kind, on and beside nodes, around some, outside the grid and far away. */
 static void push_all(void) {
     for (int i = 0; i < KINDS; i++)
         push(one_of_each_kind[i]);
@@ -74,20 +74,22 @@ static const lmp_field *the_field(const render_frame *frame, bool nodes, uint64_
 }
 
 static float *read_nodes(size_t bytes, double *milliseconds) {
-    cli_error error = { "" };
+    base_error error = { "" };
     float *texels = malloc(bytes);
     assert_non_null(texels);
     const render_frame frame = { .lights = f.lights,
                                  .light_count = f.count,
                                  .whole_field = the_field };
-    gpu_upload_lights(f.renderer, &frame);
-    expect(gpu_bind_field(f.renderer, &frame, milliseconds, &error), &error);
+    gpu_lights_upload(&f.renderer->lights, frame.lights, frame.light_count);
+    expect(gpu_field_bind(&f.renderer->field, &f.renderer->context, &f.renderer->lights, &frame,
+                          milliseconds, &error),
+           &error);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(f.renderer->field[0].nodes, 0, (GLsizeiptr)bytes, texels);
+    glGetNamedBufferSubData(f.renderer->field.levels[0].nodes.buffer, 0, (GLsizeiptr)bytes, texels);
     return texels;
 }
 
-/* The largest difference of values, and of derivatives, in parts of the largest. */
+/* Compares values, and derivatives, by their largest difference relative to the largest value. */
 static void compare(const float *library, const float *shader, size_t texels, double error[2]) {
     double largest[2] = { 0, 0 };
     error[0] = error[1] = 0;
@@ -102,16 +104,16 @@ static void compare(const float *library, const float *shader, size_t texels, do
     error[1] /= largest[1];
 }
 
-/* Of a grid of so many nodes around the origin, by its levels and bands. */
+/* Checks a grid around the origin, by its levels and bands. */
 static void check_nodes(lmp_field_desc desc, int levels) {
     const int *n = desc.nodes;
     const size_t nodes = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
     const size_t texels = nodes * 3 * LMP_SH_COUNT(desc.bands), bytes = 4 * texels * sizeof(float);
     double error[2], milliseconds;
     int count = 0;
-    desc.light_max = (int)f.count;
+    desc.light_max = f.count;
     assert_int_equal(lmp_field_create(NULL, &desc, &f.field), LMP_OK);
-    for (const lmp_field *level = f.field; level; level = lmp_field_coarser(level))
+    for (const lmp_field *level = f.field; level; level = lmp_field_coarser_level(level))
         count++;
     assert_int_equal(count, levels);
     const double start = timing_now();
@@ -120,7 +122,7 @@ static void check_nodes(lmp_field_desc desc, int levels) {
     f.stamp++;
     float *library = malloc(bytes), *shader = read_nodes(bytes, &milliseconds);
     assert_non_null(library);
-    lmp_field_nodes(f.field, 0, nodes, library);
+    lmp_field_copy_nodes(f.field, 0, nodes, library);
     compare(library, shader, texels, error);
     print_message("%zu nodes in %d levels, %d bands, %zu lights: values %.1e, derivatives %.1e of "
                   "the largest; %.1f ms, the library on one thread %.1f\n",
@@ -150,23 +152,24 @@ static void nodes_without_a_coarser_field_are_the_library_s(void **state) {
     close_fixture();
 }
 
-/* Large ones, so many that a coarser field's lists have no room for each in every block. */
+/* Adds large lights, so many that a coarser field's lists have no room for each in every block. */
 static void push_large(void) {
     for (int i = 0; i < 30; i++)
         push_sphere(random_position(-2, 2), 2.5f, 2);
 }
 
-/* Lights that fade, near everywhere in a coarser field. */
+/* Counts the lights that fade but are near everywhere in a coarser field. */
 static size_t count_everywhere(const lmp_field_desc *desc) {
     static uint32_t begin[4096], lights[1 << 16];
     lmp_field *field;
     assert_int_equal(lmp_field_create(NULL, desc, &field), LMP_OK);
     assert_int_equal(lmp_field_reset(field, f.emitters, f.count), LMP_OK);
-    const lmp_field *coarse = lmp_field_coarser(field);
+    const lmp_field *coarse = lmp_field_coarser_level(field);
     const lmp_field_info info = lmp_field_describe(coarse);
     const int *n = info.desc.nodes, blocks = n[0] / 2 * (n[1] / 2) * (n[2] / 2);
     size_t count = 0;
-    assert_true(blocks + 2 <= 4096 && lmp_field_lists(coarse, 1 << 16, begin, lights) <= 1 << 16);
+    assert_true(blocks + 2 <= 4096 &&
+                lmp_field_copy_lists(coarse, 1 << 16, begin, lights) <= 1 << 16);
     for (uint32_t i = begin[blocks]; i < begin[blocks + 1]; i++)
         count += f.emitters[lights[i]].kind == LMP_LIGHT_SPHERE;
     lmp_field_destroy(field);
@@ -182,7 +185,7 @@ static void nodes_of_coarser_fields_are_the_library_s(void **state) {
         check_nodes(grid(bands[i], 15, 14, 13, 0.6f), 2);
     push_large();
     lmp_field_desc fine = grid(3, 30, 27, 25, 0.3f);
-    fine.light_max = (int)f.count;
+    fine.light_max = f.count;
     assert_true(count_everywhere(&fine) > 0);
     check_nodes(fine, 3);
     close_fixture();
@@ -208,7 +211,7 @@ static void no_light_and_lights_of_other_kinds_leave_nodes_dark(void **state) {
     close_fixture();
 }
 
-/* More than a thread takes at once, of all lights and of one list. */
+/* There are more lights than a thread takes at once, in all and in one list. */
 static void thousands_of_lights_all_count(void **state) {
     (void)state;
     open_fixture("builtin:ball");
@@ -228,7 +231,7 @@ static void a_grid_of_full_size_is_the_library_s(void **state) {
     close_fixture();
 }
 
-/* Lights that rest cost nothing: the nodes of a stamp are kept, whatever the lights are. */
+/* Lights at rest cost nothing: the nodes of a stamp are kept, whatever the lights are. */
 static void nodes_are_computed_where_lights_have_changed(void **state) {
     (void)state;
     const lmp_field_desc desc = grid(3, 9, 7, 6, 1);
@@ -253,10 +256,10 @@ static void nodes_are_computed_where_lights_have_changed(void **state) {
     close_fixture();
 }
 
-/* One field for both devices, of which the library computes the nodes that it needs. */
+/* Both devices read one field, of which the library computes the nodes that it needs. */
 static void frames_by_computed_nodes_are_those_of_the_library(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     const shade_field_options options = { .error = SHADE_FIELD_ERROR, .moves = true };
     open_fixture("builtin:balls");
     push_all();
@@ -272,14 +275,14 @@ static void frames_by_computed_nodes_are_those_of_the_library(void **state) {
         f.lights[10 + step].emitter.position.y += 0.5f;
         image on_device = render_image(f.renderer, &frame);
         image again = render_image(f.renderer, &frame);
-        frame.host = shade_frame;
-        image on_host = render_image(f.renderer, &frame);
-        frame.host = NULL;
+        frame.cpu_shader = shade_frame;
+        image on_cpu = render_image(f.renderer, &frame);
+        frame.cpu_shader = NULL;
         assert_memory_equal(on_device.rgb, again.rgb, sizeof(float[3 * 120 * 68]));
-        expect_same("computed nodes", differ(&on_device, &on_host));
+        expect_same("computed nodes", differ(&on_device, &on_cpu));
         image_free(&on_device);
         image_free(&again);
-        image_free(&on_host);
+        image_free(&on_cpu);
     }
     shade_field_destroy(field);
     close_fixture();

@@ -3,8 +3,8 @@
 #ifndef LAMPION_TESTS_GPU_FIELDS_H
 #define LAMPION_TESTS_GPU_FIELDS_H
 
-#include "app/render/shade/field.h"
-#include "app/render/shade/shade.h"
+#include "app/render/shade.h"
+#include "app/render/shade_field.h"
 #include "tests/gpu/difference.h"
 #include "tests/oracle/kinds.h"
 
@@ -13,7 +13,7 @@ enum { WIDTH = 240, HEIGHT = 136 };
 static scene world;
 
 static inline void open_world(const char *name, int lights) {
-    cli_error error = { "" };
+    base_error error = { "" };
     expect(scene_load(name, &(scene_options) { .no_cache = true }, &world, &error), &error);
     expect(scene_apply_lights(
                &world, &(scene_lights_options) { .random_count = lights, .seed = 7, .hide = true },
@@ -23,7 +23,7 @@ static inline void open_world(const char *name, int lights) {
 }
 
 static inline shade_field *open_field_within(int bands, bool moves, size_t bytes_max) {
-    cli_error error = { "" };
+    base_error error = { "" };
     const shade_field_options options = { .error = SHADE_FIELD_ERROR,
                                           .moves = moves,
                                           .bytes_max = bytes_max };
@@ -43,7 +43,8 @@ static inline image render_by(gpu_renderer *renderer, render_frame *frame, metho
     return render_image(renderer, frame);
 }
 
-/* Balls, under lights of which one is the same from everywhere, one is ambient, too, and a spot. */
+/* Opens balls under lights of every kind: one is the same from everywhere, one also ambient, one a
+ * spot. */
 static inline void open_every_kind(void) {
     open_world("builtin:balls", 20);
     for (int i = 0; i < KINDS; i++)
@@ -54,12 +55,12 @@ static inline void open_every_kind(void) {
  * before all of them are wanted. */
 static inline difference devices_differ(gpu_renderer *renderer, render_frame *frame,
                                         shade_field *field) {
-    frame->host = shade_frame;
-    image on_host = render_by(renderer, frame, METHOD_FIELD, field);
-    frame->host = NULL;
+    frame->cpu_shader = shade_frame;
+    image on_cpu = render_by(renderer, frame, METHOD_FIELD, field);
+    frame->cpu_shader = NULL;
     image on_device = render_by(renderer, frame, METHOD_FIELD, field);
-    const difference d = differ(&on_device, &on_host);
-    image_free(&on_host);
+    const difference d = differ(&on_device, &on_cpu);
+    image_free(&on_cpu);
     image_free(&on_device);
     return d;
 }

@@ -1,28 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion.glsl, probe.glsl and ggx.glsl alone, as an engine includes them, against the library. */
-#include "tests/gpu/device.h"
+#include "tests/gpu/compute.h"
 #include "tests/oracle/check.h"
 
 #include <lampion/lobe.h>
 #include <lampion/probe.h>
 
-#include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { POINTS = 64 };
 
-static const char *source(const char *name) {
-    for (const embedded_file *file = gpu_sources; file->name; file++)
-        if (strcmp(file->name, name) == 0)
-            return file->text;
-    fail_msg("%s is not embedded", name);
-    return NULL;
-}
-
-/* One thread a point: in[i] is (point, radius) of a light at the origin; out receives the
- * coefficients of the light, then those of the direction to it. */
+/* The shader runs one thread per point: in[i] is (point, radius) of a light at the origin; out
+ * receives the coefficients of the light, then those of the direction to it. */
 static const char main_function[] =
     "layout(local_size_x = 64) in;\n"
     "layout(std430, binding = 0) buffer in_block { vec4 points[]; };\n"
@@ -39,25 +30,9 @@ static const char main_function[] =
     "    }\n"
     "}\n";
 
-/* more: a file to include after the first, or NULL. */
-static GLuint build(const char *head, const char *file, const char *more, const char *main) {
-    const char *text[] = { head, source(file), more ? source(more) : "", main };
-    const GLuint program = glCreateProgram(), shader = glCreateShader(GL_COMPUTE_SHADER);
-    GLint ok = 0;
-    char log[512] = "";
-    glShaderSource(shader, 4, text, NULL);
-    glCompileShader(shader);
-    glAttachShader(program, shader);
-    glDeleteShader(shader);
-    glLinkProgram(program);
-    glGetProgramiv(program, GL_LINK_STATUS, &ok);
-    glGetProgramInfoLog(program, sizeof log, NULL, log);
-    if (!ok)
-        fail_msg("%s", log);
-    return program;
-}
+static const char *const lampion_files[] = { "lampion.glsl", "coefficients.glsl", NULL };
 
-/* From touching the sphere to a million radii away, and inside. */
+/* Points range from touching the sphere to a million radii away, and inside. */
 static void fill_points(float points[POINTS][4]) {
     for (int i = 0; i < POINTS; i++) {
         const float azimuth = 2.39996f * (float)i, z = 1 - 2 * ((float)i + 0.5f) / (float)POINTS;
@@ -87,17 +62,8 @@ static void coefficients_agree_with_the_library(void **state) {
         const size_t count = LMP_SH_COUNT(bands), size = POINTS * count * 2 * sizeof(float);
         char head[64];
         snprintf(head, sizeof head, "#version 450 core\n#define LMP_BANDS %d\n", bands);
-        const GLuint program = build(head, "lampion.glsl", "coefficients.glsl", main_function);
-        GLuint buffers[2];
-        glCreateBuffers(2, buffers);
-        glNamedBufferStorage(buffers[0], sizeof points, points, 0);
-        glNamedBufferStorage(buffers[1], (GLsizeiptr)size, NULL, GL_MAP_READ_BIT);
-        glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, buffers);
-        glUseProgram(program);
-        glDispatchCompute(1, 1, 1);
-        glMemoryBarrier(GL_ALL_BARRIER_BITS);
-        const float *values = glMapNamedBuffer(buffers[1], GL_READ_ONLY);
-        assert_non_null(values);
+        const GLuint program = build_compute(head, lampion_files, main_function);
+        float *values = run_compute(program, points, sizeof points, size, 1);
         double worst = 0;
         for (size_t i = 0; i < POINTS; i++) {
             float light[400], basis[400];
@@ -115,7 +81,7 @@ static void coefficients_agree_with_the_library(void **state) {
             }
         }
         print_message("%2d bands: %.1e of the largest coefficient\n", bands, worst);
-        glDeleteBuffers(2, buffers);
+        free(values);
         glDeleteProgram(program);
         if (!(worst <= 2e-5))
             fail_msg("%d bands: %g above 2e-5", bands, worst);
@@ -137,8 +103,8 @@ static const char lists_main[] =
     "    LMP_FOR_COLUMNS(LIST_COLUMN)\n"
     "}\n";
 
-/* Every band once: in a sum of powers of two a number that is missing or there twice is seen.
- * Drivers take long for what the most bands compute, and no time for this. */
+/* Every band must be listed once: in a sum of powers of two, a missing or repeated number shows.
+ * Drivers compile this at once, unlike code for the most bands. */
 static void lists_name_every_band_once(void **state) {
     (void)state;
     static const int band_counts[] = { 1, 4, 5, 8, 9, 16, 17, 32 };
@@ -149,7 +115,7 @@ static void lists_name_every_band_once(void **state) {
         GLuint buffer;
         uint32_t values[4];
         snprintf(head, sizeof head, "#version 450 core\n#define LMP_BANDS %d\n", bands);
-        const GLuint program = build(head, "lampion.glsl", "coefficients.glsl", lists_main);
+        const GLuint program = build_compute(head, lampion_files, lists_main);
         glCreateBuffers(1, &buffer);
         glNamedBufferStorage(buffer, sizeof zeros, zeros, 0);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffer);
@@ -189,8 +155,9 @@ static void irradiance_agrees_with_the_library(void **state) {
         const lmp_vec3 n = check_random_direction();
         memcpy(normals[i], (const float[4]) { n.x, n.y, n.z }, sizeof normals[i]);
     }
-    lmp_probe_constants_of(3, 1, sh, &constants);
-    const GLuint program = build("#version 450 core\n", "probe.glsl", NULL, probe_main);
+    lmp_probe_make_constants(3, 1, sh, &constants);
+    static const char *const files[] = { "probe.glsl", NULL };
+    const GLuint program = build_compute("#version 450 core\n", files, probe_main);
     GLuint buffers[3];
     glCreateBuffers(3, buffers);
     glNamedBufferStorage(buffers[0], sizeof normals, normals, 0);
@@ -221,7 +188,8 @@ static const char ggx_head[] =
     "layout(std430, binding = 2) buffer texel_block { vec4 texels[]; };\n"
     "#define LMP_GGX_TEXEL(i) texels[i]\n";
 
-/* One thread a view: (direction, roughness) around the normal z; out receives two vec4 a lobe. */
+/* The shader runs one thread per view: (direction, roughness) around the normal z; out receives two
+ * vec4 per lobe. */
 static const char ggx_main[] =
     "layout(local_size_x = 64) in;\n"
     "layout(std430, binding = 0) buffer in_block { vec4 views[]; };\n"
@@ -241,7 +209,8 @@ static const char ggx_main[] =
 
 static void check_ggx_lobes(const float view[4], const float (*values)[4]) {
     lmp_ggx_lobes lobes;
-    lmp_lobe_ggx((lmp_vec3) { 0, 0, 1 }, (lmp_vec3) { view[0], view[1], view[2] }, view[3], &lobes);
+    lmp_lobe_find_ggx((lmp_vec3) { 0, 0, 1 }, (lmp_vec3) { view[0], view[1], view[2] }, view[3],
+                      &lobes);
     for (int k = 0; k < LMP_GGX_LOBES; k++) {
         const lmp_ggx_lobe *lobe = &lobes.lobe[k];
         const float *first = values[2 * k], *second = values[2 * k + 1];
@@ -252,7 +221,7 @@ static void check_ggx_lobes(const float view[4], const float (*values)[4]) {
         CHECK_WITHIN(fabsf(second[0] - lobe->f0), 1e-5);
         CHECK_WITHIN(fabsf(second[1] - lobe->f90), 1e-5);
         CHECK_WITHIN(fabsf(second[2] - lobes.diffuse_f90), 1e-5);
-        if (k >= (int)second[3]) /* not among those that count */
+        if (k >= (int)second[3]) /* a lobe that does not count */
             CHECK_WITHIN(fabsf(lobe->f0) + fabsf(lobe->f90), 1e-5);
     }
 }
@@ -266,8 +235,9 @@ static void ggx_lobes_agree_with_the_library(void **state) {
         memcpy(views[i], (const float[4]) { v.x, v.y, fabsf(v.z) }, sizeof views[i]);
         views[i][3] = (float)check_random_between(-0.1, 1.1);
     }
-    lmp_lobe_ggx_texels(texels[0]);
-    const GLuint program = build(ggx_head, "ggx.glsl", NULL, ggx_main);
+    lmp_lobe_copy_ggx_texels(texels[0]);
+    static const char *const files[] = { "ggx.glsl", NULL };
+    const GLuint program = build_compute(ggx_head, files, ggx_main);
     GLuint buffers[3];
     glCreateBuffers(3, buffers);
     glNamedBufferStorage(buffers[0], sizeof views, views, 0);

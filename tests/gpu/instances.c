@@ -36,7 +36,7 @@ static void instances_look_like_their_meshes_in_the_world(void **state) {
             off += !(fabsf(a.rgb[i] - b.rgb[i]) <= 0.01f * fabsf(b.rgb[i]) + 1e-4f);
         }
         assert_true(shown > SIDE * SIDE);
-        /* Rounding decides of a pixel on a silhouette here and there. */
+        /* Rounding decides a few pixels on silhouettes. */
         assert_in_range(off, 0, 3 * SIDE * SIDE / 500);
         image_free(&a);
         image_free(&b);

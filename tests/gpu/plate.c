@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A plate of a glTF material under one sphere light: its image against glTF 2.0, appendix B,
  * integrated over the light in double precision; and how exactly its material comes through. */
-#include "app/render/shade/shade.h"
-#include "app/timing/timing.h"
+#include "app/base/timing.h"
+#include "app/render/shade.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
@@ -13,8 +13,8 @@
 
 enum { WIDTH = 24, HEIGHT = 16 };
 
-/* A square in y = 0, and above it a light that the camera sees in the middle of the plate, were it
- * a mirror. */
+/* A square in y = 0, and above it a light that the camera would see in the middle of the plate if
+ * that were a mirror. */
 typedef struct plate {
     scene_vertex vertices[4];
     uint32_t indices[6];
@@ -65,14 +65,14 @@ static void lay_plate(plate *p, double view, double ratio) {
         .bands = LMP_BANDS_MAX,
         .lights = &p->light,
         .light_count = 1,
-        .host = shade_frame
+        .cpu_shader = shade_frame
     };
 }
 
 /* --- as the specification says ---------------------------------------------------------------- */
 
-/* Where the ray through a pixel's center meets y = 0, and the direction from there to the eye;
- * false where it does not. */
+/* Finds where the ray through a pixel's center meets y = 0, and the direction from there to the
+ * eye; returns false where it does not. */
 static bool look(const plate *p, int x, int y, double at[3], double to_eye[3]) {
     const scene_camera *camera = &p->frame.camera;
     const double top = tan((double)camera->fov / 2), length = 8;
@@ -92,7 +92,7 @@ static bool look(const plate *p, int x, int y, double at[3], double to_eye[3]) {
     return ray[1] < 0 && fabs(at[0]) < 50 && fabs(at[2]) < 50;
 }
 
-/* Metal of a gray base, or the dielectric. */
+/* Returns the exact radiance of a metal with a gray base, or of the dielectric. */
 static double exact(const plate *p, const double at[3], const double to_eye[3]) {
     const lmp_light *light = &p->light.emitter;
     const bool metal = p->material.metallic > 0.5f;
@@ -113,8 +113,8 @@ static double exact(const plate *p, const double at[3], const double to_eye[3]) 
 }
 
 typedef struct apart {
-    double rms, largest; /* in parts of the peak */
-    double energy;       /* of the image in parts of the exact one */
+    double rms, largest; /* relative to the peak */
+    double energy;       /* energy of the image relative to the exact one's */
 } apart;
 
 static apart compare(const plate *p) {
@@ -144,7 +144,8 @@ static apart compare(const plate *p) {
     return (apart) { sqrt(squares / count) / peak, largest / peak, sums[1] / sums[0] };
 }
 
-/* Of a smoother plate 128 bands do not hold the highlight of the smallest light. */
+/* Roughnesses of the plate; at lower ones 128 bands do not hold the highlight of the smallest
+ * light. */
 static const double plate_roughnesses[] = { 0.4, 1, 0.7, 0.55, 0.85 };
 static const double plate_views[] = { 0, 50, 80 };
 static const double plate_ratios[] = { 0.8, 0.05, 0.2, 0.1, 0.4 };
@@ -183,17 +184,17 @@ static void plates_look_as_the_specification_says(void **state) {
 
 /* --- what comes through ----------------------------------------------------------------------- */
 
-static lmp_material seen_by_host;
-static lmp_rgb emitted_to_host;
+static lmp_material seen_by_cpu;
+static lmp_rgb emitted_to_cpu;
 
 static bool keep_material(const render_frame *frame, const render_surfaces *surfaces, float *rgba,
-                          cli_error *error) {
+                          base_error *error) {
     (void)error;
     render_tile row;
     assert_true(render_tile_create(frame->width, &row));
     render_surfaces_tile(surfaces, 0, frame->height / 2, frame->width, 1, &row);
-    seen_by_host = row.material[frame->width / 2];
-    emitted_to_host = render_surfaces_emission(
+    seen_by_cpu = row.material[frame->width / 2];
+    emitted_to_cpu = render_surfaces_emission(
         surfaces, (size_t)(frame->height / 2) * (size_t)frame->width + (size_t)frame->width / 2);
     render_tile_free(&row);
     memset(rgba, 0, 4 * sizeof *rgba * (size_t)frame->width * (size_t)frame->height);
@@ -206,21 +207,21 @@ static void check_material(const lmp_material *m, const scene_material *from) {
         CHECK_WITHIN(fabsf((&m->base_color.r)[c] / from->base_color[c] - 1), 1e-3);
     CHECK_WITHIN(fabsf(m->metallic - from->metallic), 1e-5);
     CHECK_WITHIN(fabsf(m->roughness - from->roughness), 1e-5);
-    assert_true(m->dielectric.given); /* an index of 1.5, no tint, no coat, no sheen */
+    assert_true(m->dielectric.given); /* defaults: index 1.5, no tint, coat or sheen */
     for (int c = 0; c < 3; c++)
         CHECK_WITHIN(fabsf((&m->dielectric.f0.r)[c] - 0.04f), 1e-6);
     CHECK_WITHIN(fabsf(m->dielectric.f90 - 1), 1e-6);
     CHECK_WITHIN(m->coat.weight, 0);
 }
 
-/* In floats of 11 bits, blue in 10. */
+/* Checks emission kept in floats of 11 bits, and blue in 10. */
 static void check_emission(lmp_rgb seen, const float emission[3]) {
     for (int c = 0; c < 3; c++)
         CHECK_WITHIN(fabsf((&seen.r)[c] / emission[c] - 1), c < 2 ? 1.0 / 64 : 1.0 / 32);
 }
 
-/* Albedos from 0.0005 to 1, roughnesses that are multiples of 0.0005, emissions of 1e-3 to 1e4: on
- * both devices. */
+/* Checks albedos from 0.0005 to 1, roughnesses that are multiples of 0.0005, and emissions of 1e-3
+ * to 1e4, on both devices. */
 static void materials_come_through_exactly(void **state) {
     (void)state;
     const int count = check_count(20, 200), step = 2000 / count;
@@ -235,26 +236,25 @@ static void materials_come_through_exactly(void **state) {
         for (int c = 0; c < 3; c++)
             p.material.emission[c] =
                 1e-3f * powf(1e7f, (float)((3 * i + 17 * c) % (3 * count)) / last);
-        p.frame.host = keep_material;
+        p.frame.cpu_shader = keep_material;
         gpu_renderer *renderer = open_renderer(&p.world);
         render_pixel *pixels = render_pixels(renderer, &p.frame);
         check_material(&pixels[HEIGHT / 2 * WIDTH + WIDTH / 2].material, &p.material);
-        check_material(&seen_by_host, &p.material);
+        check_material(&seen_by_cpu, &p.material);
         check_emission(pixels[HEIGHT / 2 * WIDTH + WIDTH / 2].emission, p.material.emission);
-        check_emission(emitted_to_host, p.material.emission);
+        check_emission(emitted_to_cpu, p.material.emission);
         free(pixels);
         gpu_renderer_destroy(renderer);
     }
 }
 
-/* However long they take: the passes of a frame come one after another, and all of them within it.
- */
+/* However long they take, the passes of a frame come one after another, and all within its time. */
 static void passes_take_no_longer_than_their_frame(void **state) {
     (void)state;
     plate p;
     lay_plate(&p, 0.5, 0.2);
     gpu_renderer *renderer = open_renderer(&p.world);
-    cli_error error = { "" };
+    base_error error = { "" };
     for (int samples = 1; samples <= 4; samples += 3) {
         render_times times = { 0 };
         p.frame.samples = samples;

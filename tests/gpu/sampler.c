@@ -5,7 +5,7 @@
 
 #include <epoxy/gl.h>
 
-/* The color of sheet 0, whose texture is number t, where u is what is given. */
+/* Returns the color that sheet 0 shows with texture number t at a given u. */
 static lmp_rgb color_at(int t, float u) {
     scene_texture_use *use = &sheet.materials[0].base_color_map;
     *use = (scene_texture_use) { .texture = t, .offset = { u, 0.5f } };
@@ -25,7 +25,7 @@ static int count_textures(void) {
     return count;
 }
 
-/* Red on the left, green on the right: beyond the right edge they tell the samplers apart. */
+/* The texture is red on the left and green on the right: beyond the right edge samplers differ. */
 static void samplers_share_their_image(void **state) {
     (void)state;
     static const bool red[][2] = { [SCENE_WRAP_REPEAT] = { true, false },

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What a window shows: one image or two, the right way up, and drawings where they belong. */
-#include "app/render/gl/internal.h"
+/* A window shows one image or two, upright, and drawings where they belong. */
+#include "app/render/gl/program.h"
+#include "app/render/gl/targets.h"
 #include "tests/gpu/device.h"
 
 #include <stdlib.h>
@@ -12,11 +13,11 @@ typedef struct fixture {
     scene world;
     gpu_renderer *renderer;
     gpu_screen *screen;
-    unsigned char sides[2][3 * PIXELS]; /* the same image, and once more darker */
+    unsigned char sides[2][3 * PIXELS]; /* the image, and a darker copy */
 } fixture;
 
 static void open_fixture(fixture *f) {
-    cli_error error = { "" };
+    base_error error = { "" };
     expect(scene_load("builtin:atrium", &(scene_options) { .no_cache = true }, &f->world, &error),
            &error);
     f->renderer = open_renderer(&f->world);
@@ -39,7 +40,7 @@ static void close_fixture(fixture *f) {
     scene_free(&f->world);
 }
 
-/* What the layout shows of a pixel's channel at column x. */
+/* Returns what the layout shows of a channel at column x. */
 static int shown(const fixture *f, const gpu_layout *layout, int x, int i) {
     const int a = f->sides[0][i], b = f->sides[1][i];
     if (layout->split == GPU_SPLIT_NONE)
@@ -55,7 +56,7 @@ static void screens_are_read_from_the_top_whole_divided_and_as_differences(void 
     (void)state;
     static fixture f;
     static unsigned char seen[3 * PIXELS];
-    cli_error error = { "" };
+    base_error error = { "" };
     open_fixture(&f);
     for (int split = 0; split < GPU_SPLITS; split++) {
         const gpu_layout layout = { WIDTH, HEIGHT, (gpu_split)split, 0.5f, 4 };
@@ -72,7 +73,7 @@ static void draw_window(const char *shader, GLuint texture, void (*set)(void),
                         unsigned char *rgba) {
     const gpu_stage stages[] = { { GL_VERTEX_SHADER, "screen.vert" },
                                  { GL_FRAGMENT_SHADER, shader } };
-    cli_error error = { "" };
+    base_error error = { "" };
     const GLuint program = gpu_program(stages, 2, "", &error),
                  target = gpu_target_create(GL_RGBA8, SIZE, SIZE);
     GLuint framebuffer, vertices;
@@ -95,7 +96,7 @@ static void draw_window(const char *shader, GLuint texture, void (*set)(void),
     glDeleteProgram(program);
 }
 
-/* Rows from the top; red counts columns, green rows. */
+/* Makes an image whose rows run from the top; red counts columns, green rows. */
 static GLuint numbered(int width, int height) {
     unsigned char texels[4 * SIZE * SIZE];
     const GLuint texture = gpu_target_create(GL_RGBA8, width, height);

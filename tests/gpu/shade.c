@@ -8,19 +8,19 @@
 
 enum { WIDTH = 72, HEIGHT = 40, PIXELS = WIDTH * HEIGHT };
 
-/* Largest difference to lmp_shade a channel may have, as a part of the sum of the lobes' magnitudes
- * at that pixel (what rounding is proportional to, for the lobes' series cancel). */
+/* The largest difference to lmp_shade that a channel may have, relative to the sum of the lobes'
+ * magnitudes at that pixel, to which rounding is proportional because the lobes' series cancel. */
 static const double bound = 5e-6;
 
-/* The same as a part of the largest radiance in the image. */
+/* The largest difference to lmp_shade, relative to the largest radiance in the image. */
 static const double peak_bound = 5e-5;
 
 static const int band_counts[] = { 1, 3, 5, 8, 10, 20 };
 enum { BAND_COUNTS = sizeof band_counts / sizeof band_counts[0] };
 
 typedef struct worst {
-    double relative; /* to the magnitude at the pixel */
-    double peak;     /* to the largest radiance of the image */
+    double relative; /* relative to the magnitude at the pixel */
+    double peak;     /* relative to the largest radiance of the image */
     int surfaces;
 } worst;
 
@@ -35,31 +35,31 @@ static double scale_of(int bands, const float *lambda) {
     return sum;
 }
 
-/* What each light alone would reflect with every term of its series positive: the scale of
- * rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of all lobes, times the
- * strength of the light's cap over pi, and four times what is ambient. */
+/* Returns what each light alone would reflect if every term of its series were positive, the scale
+ * of rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of all lobes, times the
+ * strength of the light's cap over pi, plus four times the ambient light. */
 static double magnitude(const render_pixel *p, const render_frame *frame) {
     float lambda[LMP_BANDS_MAX];
     lmp_ggx_lobes ggx;
     const lmp_rgb base = p->material.base_color;
     const float metal = p->material.metallic, brightest = fmaxf(base.r, fmaxf(base.g, base.b));
-    lmp_lobe_ggx(p->surface.normal, p->surface.view, p->material.roughness, &ggx);
-    lmp_lobe_diffuse(frame->bands, lambda);
+    lmp_lobe_find_ggx(p->surface.normal, p->surface.view, p->material.roughness, &ggx);
+    lmp_lobe_make_diffuse(frame->bands, lambda);
     double lobes = (double)(brightest * (1 - metal)) / 3.14159265 * scale_of(frame->bands, lambda);
     double sum = 0;
     for (int k = 0; k < LMP_GGX_LOBES; k++) {
         const lmp_ggx_lobe *lobe = &ggx.lobe[k];
         const float f0 = 0.04f + (brightest - 0.04f) * metal;
-        lmp_lobe_phong(frame->bands, lobe->exponent, lambda);
+        lmp_lobe_make_phong(frame->bands, lobe->exponent, lambda);
         lobes += (double)(f0 * fabsf(lobe->f0) + lobe->f90) * scale_of(frame->bands, lambda);
     }
     for (size_t i = 0; i < frame->light_count; i++) {
         lmp_cap cap;
         lmp_light light = frame->lights[i].emitter;
         if (light.kind ==
-            LMP_LIGHT_SPOT) /* rounding of the falloff is one of its whole intensity */
+            LMP_LIGHT_SPOT) /* rounding of the falloff is that of the whole intensity */
             light.kind = LMP_LIGHT_POINT;
-        lmp_light_cap(&light, p->surface.position, &cap);
+        lmp_light_find_cap(&light, p->surface.position, &cap);
         sum += 2 / 3.14159265 * largest(cap.strength) + 4 * largest(cap.ambient);
     }
     return lobes * sum;
@@ -117,11 +117,11 @@ static void expect_agreement(const char *name, gpu_renderer *renderer, const ren
         fail_msg("%s: %g of the peak, above %g", name, w.peak, peak_bound);
 }
 
-/* Of the methods the one by zonal sums, or the others: the group that runs. */
+/* Whether this group runs the method of zonal sums, or the other methods. */
 static bool by_zonal_sums;
 
 static void methods_agree_on(const char *name, int random_lights, bool keep) {
-    cli_error error = { "" };
+    base_error error = { "" };
     scene world;
     expect(scene_load(name, &(scene_options) { .no_cache = true }, &world, &error), &error);
     const scene_lights_options lights = { .random_count = random_lights, .seed = 7, .keep = keep };
@@ -164,7 +164,7 @@ static void methods_agree_with_lmp_shade_on_balls_among_random_lights(void **sta
  */
 
 static void with_balls(void (*check)(scene *world, gpu_renderer *renderer)) {
-    cli_error error = { "" };
+    base_error error = { "" };
     scene world;
     expect(scene_load("builtin:balls", &(scene_options) { .no_cache = true }, &world, &error),
            &error);
@@ -185,8 +185,8 @@ static void check_with(const char *name, gpu_renderer *renderer, render_frame fr
 static void check_buried(scene *world, gpu_renderer *renderer) {
     render_frame frame = frame_of(world, WIDTH, HEIGHT);
     render_pixel *pixels = render_pixels(renderer, &frame);
-    /* centers exactly on surfaces, spheres that cut them, and one that holds the whole scene;
-     * hidden, for their own discs would cover the surfaces */
+    /* Centers exactly on surfaces, spheres that cut them, and one that contains the whole scene.
+     * They are hidden, because their own discs would cover the surfaces. */
     size_t count = 0;
     for (size_t i = 0; i < PIXELS && count < 8; i += PIXELS / 16)
         if (pixels[i].kind == RENDER_SURFACE) {
@@ -216,7 +216,7 @@ static void lights_that_hold_or_touch_surfaces_agree_with_lmp_shade(void **state
 }
 
 static void check_far(scene *world, gpu_renderer *renderer) {
-    /* r/d = 1e-6, as bright on the balls as a near lamp */
+    /* r/d = 1e-6, yet as bright on the balls as a near lamp */
     world->lights[0] = (scene_light) { .emitter = { .position = { 6e3f, 8e3f, 0 },
                                                     .radius = 1e-2f,
                                                     .radiance = { 1e12f, 2e12f, 3e12f } } };
@@ -254,7 +254,7 @@ static void every_kind_of_light_agrees_with_lmp_shade(void **state) {
     with_balls(check_kinds);
 }
 
-/* So close to surfaces that a sphere in the place of a point would be seen as one. */
+/* Checks points so close to surfaces that a sphere in their place would be seen as one. */
 static void check_close_points(scene *world, gpu_renderer *renderer) {
     render_frame frame = frame_of(world, WIDTH, HEIGHT);
     frame.bands = 20;
@@ -284,11 +284,11 @@ static void points_close_to_surfaces_agree_with_lmp_shade(void **state) {
     with_balls(check_close_points);
 }
 
-/* More than a uniform block of 64 KB holds. */
+/* More lights than a uniform block of 64 KB holds. */
 enum { CROWD = 1500 };
 
 static void check_counts(scene *world, gpu_renderer *renderer) {
-    cli_error error = { "" };
+    base_error error = { "" };
     const scene_lights_options most = { .random_count = CROWD, .seed = 1 };
     render_frame frame = frame_of(world, WIDTH, HEIGHT);
     frame.light_count = 0;
@@ -318,11 +318,11 @@ static void windows_agree_with_lmp_shade(void **state) {
     with_balls(check_windows);
 }
 
-/* Metals, for of a diffuse lobe coefficients have the bands alone. */
+/* Metals only, because coefficients truncate the diffuse lobe. */
 static void check_bytes(scene *world) {
     static scene_material metals[64];
     static unsigned char first[3 * PIXELS], bytes[3 * PIXELS];
-    cli_error error = { "" };
+    base_error error = { "" };
     assert_true(world->material_count <= 64);
     memcpy(metals, world->materials, world->material_count * sizeof *metals);
     for (size_t i = 0; i < world->material_count; i++)
@@ -354,7 +354,7 @@ static void check_bytes(scene *world) {
 
 static void methods_give_the_same_bytes_to_one_level(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     scene world;
     expect(scene_load("builtin:balls", &(scene_options) { .no_cache = true }, &world, &error),
            &error);

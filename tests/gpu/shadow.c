@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Shadows by rays and a ratio, held to the ground truth. */
 #include "tests/gpu/shadow.h"
-#include "app/reference/reference.h"
+#include "app/truth/reference.h"
 #include "tests/oracle/kinds.h"
 
 #include <omp.h>
@@ -14,7 +14,7 @@ typedef struct ground_truth {
 
 static ground_truth find_truth(const stage *s, const environment *around) {
     ground_truth t;
-    cli_error error = { "" };
+    base_error error = { "" };
     reference_settings settings = {
         .width = WIDTH,
         .height = HEIGHT,
@@ -36,7 +36,7 @@ static void free_truth(ground_truth *t) {
     image_free(&t->shadowed_error);
 }
 
-/* The mean over many seeds, and the variance of that mean, of each channel. */
+/* Averages many seeds: the mean, and the variance of that mean, of each channel. */
 static void average(stage *s, const environment *around, int seeds, double *mean,
                     double *variance) {
     memset(mean, 0, 3 * PIXELS * sizeof *mean);
@@ -55,9 +55,9 @@ static void average(stage *s, const environment *around, int seeds, double *mean
         variance[i] = fmax(variance[i] - mean[i] * mean[i], 0) / (seeds - 1);
 }
 
-/* How many pixels are judged. What is hidden, within 3 standard errors and what is `left` by 20
- * bands and by lobes of GGX. Along edges the rasterizer and a ray may show different surfaces:
- * these differ without shadows, too. */
+/* Judges the image against the ground truth and returns how many pixels were judged: what is
+ * hidden, within 3 standard errors and what 20 bands and lobes of GGX leave (`left`). Along edges
+ * the rasterizer and a ray may show different surfaces: these differ without shadows, too. */
 static int judge(stage *s, const environment *around, double left) {
     static double mean[3 * PIXELS], variance[3 * PIXELS];
     ground_truth t = find_truth(s, around);
@@ -90,7 +90,7 @@ static void check_against_truth(stage *s, const environment *around, double left
     assert_in_range(PIXELS - judge(s, around, left), 0, PIXELS / 25);
 }
 
-/* Over black, lobes of rough dielectrics err by some hundredths of what little is reflected. */
+/* Over black, lobes of rough dielectrics err by some hundredths of the little that is reflected. */
 static void check_over_black(stage *s, double left) {
     assert_in_range(PIXELS - judge(s, NULL, left), 0, PIXELS / 16);
 }
@@ -121,7 +121,7 @@ static void the_mean_ratio_is_the_truth_of_spheres_near_and_far(void **state) {
 static void the_mean_ratio_is_the_truth_of_an_environment(void **state) {
     (void)state;
     stage s;
-    cli_error error;
+    base_error error;
     environment e = { .azimuth = 0.4f };
     expect(image_create(&e.light, 32, 16, &error), &error);
     for (int i = 0; i < 3 * 32 * 16; i++)
@@ -139,7 +139,7 @@ static void make_coated_scene(scene *world) {
     make_things(world, 0.02f, 1);
 }
 
-/* Over what is dark, where the choice of lights is that of coats. */
+/* Over a dark base the choice of lights is that of coats. */
 static void the_mean_ratio_is_the_truth_under_coats(void **state) {
     (void)state;
     const lmp_light spheres[] = {
@@ -153,10 +153,11 @@ static void the_mean_ratio_is_the_truth_under_coats(void **state) {
     close_stage(&s);
 }
 
-/* As the program draws them. What textures and edges leave of unshadowed images is not judged. */
+/* Checks a built-in scene as the program draws it. What textures and edges change in unshadowed
+ * images is not judged. */
 static void check_builtin(const char *name) {
     stage s;
-    cli_error error = { "" };
+    base_error error = { "" };
     const int size[2] = { WIDTH, HEIGHT };
     if (check_count(0, 1) == 0)
         skip();
@@ -167,7 +168,7 @@ static void check_builtin(const char *name) {
         scene_place_camera(&s.world, &(scene_camera_options) { 0 }, size, &s.frame.camera, &error),
         &error);
     s.frame.bands = BANDS;
-    s.frame.host = shade_frame;
+    s.frame.cpu_shader = shade_frame;
     assert_in_range(judge(&s, NULL, 0.01), PIXELS / 2, PIXELS);
     close_stage(&s);
 }
@@ -213,7 +214,7 @@ static void both_devices_have_the_same_shadows(void **state) {
     open_stage(&s);
     set_lights(&s, one_of_each_kind, KINDS);
     image cpu = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 4 });
-    s.frame.host = NULL;
+    s.frame.cpu_shader = NULL;
     image gpu = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 4 });
     for (int i = 0; i < 3 * PIXELS; i++)
         CHECK_WITHIN(fabsf(cpu.rgb[i] - gpu.rgb[i]), 1e-3f * (1 + cpu.rgb[i]));
@@ -222,7 +223,8 @@ static void both_devices_have_the_same_shadows(void **state) {
     close_stage(&s);
 }
 
-/* A ball as a vase: `waist` less wide in the middle, of so many segments and half as many rings. */
+/* Makes a ball as a vase, `waist` narrower in the middle, of some segments and half as many rings.
+ */
 static void make_round(scene *world, float waist, int segments) {
     enum { RINGS_MAX = 256 };
     const int rings = segments / 2;
@@ -257,7 +259,7 @@ static void make_fine_vase(scene *world) {
     make_round(world, 0.7f, 512);
 }
 
-/* Where its normals face the light it is lit, and not the other way round. */
+/* The ball is lit where its normals face the light, and only there. */
 static void a_coarse_ball_does_not_shade_itself(void **state) {
     (void)state;
     int lit = 0, dark = 0;
@@ -283,7 +285,7 @@ static void a_coarse_ball_does_not_shade_itself(void **state) {
     close_stage(&s);
 }
 
-/* Under suns all around, some low and some high. */
+/* Renders the truth under suns all around, some low and some high. */
 static ground_truth vase_truth(void (*make)(scene *world)) {
     enum { SUNS = 12 };
     lmp_light suns[SUNS];
@@ -302,7 +304,7 @@ static ground_truth vase_truth(void (*make)(scene *world)) {
     return t;
 }
 
-/* Its facets would shade each other if rays left them. */
+/* The vase's facets would shade each other if rays left them. */
 static void the_ground_truth_of_a_coarse_vase_is_that_of_a_fine_one(void **state) {
     (void)state;
     ground_truth coarse = vase_truth(make_vase), fine = vase_truth(make_fine_vase);
@@ -324,7 +326,7 @@ static void the_ground_truth_of_a_coarse_vase_is_that_of_a_fine_one(void **state
     free_truth(&fine);
 }
 
-/* Of the pixels, how many the light reaches. */
+/* Counts the pixels that the light reaches. */
 static int count_lit(stage *s, const lmp_light *light) {
     int lit = 0;
     set_lights(s, light, 1);
@@ -349,7 +351,7 @@ static void a_light_in_a_closed_box_lights_nothing_outside(void **state) {
     close_stage(&s);
 }
 
-/* A surface inside a light, one that touches it, and a point in a surface. */
+/* The lights contain a surface, touch one, or lie in one as a point. */
 static void lights_that_meet_surfaces_are_finite(void **state) {
     (void)state;
     const lmp_light lights[] = {
@@ -389,7 +391,7 @@ static void make_coinciding_floors(scene *world) {
     make_floors(world, 2);
 }
 
-/* Triangles that differ, in one plane. */
+/* The scene has different triangles in one plane. */
 static void surfaces_that_coincide_do_not_shade_each_other(void **state) {
     (void)state;
     const lmp_light low = { .position = { -1, 0.4f, 0 }, .radius = 0.1f, .radiance = { 9, 9, 9 } };

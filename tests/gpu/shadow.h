@@ -3,9 +3,9 @@
 #ifndef LAMPION_TESTS_GPU_SHADOW_H
 #define LAMPION_TESTS_GPU_SHADOW_H
 
-#include "app/render/shade/shade.h"
+#include "app/render/shade.h"
 #include "app/render/shadow/shadow.h"
-#include "app/scene/shape.h"
+#include "app/scene/builtin/shape.h"
 #include "app/scene/vector.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
@@ -72,7 +72,7 @@ static void stand_screen(scene_builder *builder) {
 }
 
 static void open_scene(scene_builder *builder, scene *world) {
-    cli_error error = { "" };
+    base_error error = { "" };
     void *block;
     size_t size;
     assert_true(builder_pack(builder, &block, &size));
@@ -122,7 +122,7 @@ static void open_scene_stage(stage *s, void (*make)(scene *world)) {
     s->frame = frame_of(&s->world, WIDTH, HEIGHT);
     s->frame.camera = camera;
     s->frame.bands = BANDS;
-    s->frame.host = shade_frame;
+    s->frame.cpu_shader = shade_frame;
 }
 
 static inline void open_stage(stage *s) {
@@ -142,13 +142,13 @@ static void close_stage(stage *s) {
 }
 
 static image draw_shadows(stage *s, const environment *around, const shadow_settings *settings) {
-    cli_error error = { "" };
+    base_error error = { "" };
     trace_bvh *bvh = trace_create(&s->world);
     shadow *all = shadow_create(&s->world, bvh, around, settings, &error);
     expect(all != NULL, &error);
-    s->frame.shadow = (render_pass) { shadow_frame, all };
+    s->frame.shadow = shadow_pass(all);
     image pixels = render_image(s->renderer, &s->frame);
-    s->frame.shadow = (render_pass) { NULL, NULL };
+    s->frame.shadow = (render_pass) { .user = NULL };
     shadow_destroy(all);
     trace_destroy(bvh);
     return pixels;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What the filter of shadows gains, and what it must not blur. */
-#include "app/timing/timing.h"
+#include "app/base/timing.h"
 #include "tests/gpu/shadow.h"
 
 static double relative_error(const image *drawn, const image *true_image) {
@@ -63,7 +63,7 @@ static void many_filtered_samples_come_to_the_truth(void **state) {
     close_stage(&s);
 }
 
-/* A sixth of the rays, of which the filter and the samples after make the rest. */
+/* A sixth of the rays are traced; the filter and the samples after stand in for the rest. */
 static void neighbors_and_samples_share_their_rays(void **state) {
     (void)state;
     stage s;
@@ -96,7 +96,7 @@ static void make_roof(scene *world) {
     open_scene(&builder, world);
 }
 
-/* Twice as wide and high, under one light. */
+/* Opens the roof, twice as wide and high, under one light. */
 static void open_roof(stage *s, const lmp_light *light) {
     open_scene_stage(s, make_roof);
     s->frame.width *= 2;
@@ -104,7 +104,7 @@ static void open_roof(stage *s, const lmp_light *light) {
     set_lights(s, light, 1);
 }
 
-/* The mean variance of the pixels from one seed to another. */
+/* Returns the mean variance of the pixels from one seed to another. */
 static double noise_of(stage *s, bool raw) {
     enum { SEEDS = 4, VALUES = 12 * PIXELS };
     static double sums[VALUES], squares[VALUES];
@@ -126,7 +126,7 @@ static double noise_of(stage *s, bool raw) {
     return variance;
 }
 
-/* The roof is nearer to the light than to the floor. */
+/* The roof is nearer to the light than to the floor, so that penumbras are wide. */
 static void wide_penumbras_are_mixed_widely(void **state) {
     (void)state;
     stage s;
@@ -138,7 +138,7 @@ static void wide_penumbras_are_mixed_widely(void **state) {
     close_stage(&s);
 }
 
-/* A pixel is as bright as one of its neighbors should be, within a fiftieth of the light. */
+/* Each pixel is as bright as one of its neighbors should be, within a fiftieth of the light. */
 static void edges_of_a_small_far_light_stay_within_a_pixel(void **state) {
     (void)state;
     stage s;
@@ -188,8 +188,8 @@ static void make_column(scene *world) {
     open_scene(&builder, world);
 }
 
-/* Of what would arrive without shadows: red of a pixel and of those around it; the least, the most.
- */
+/* Finds what arrives relative to the light without shadows: red of a pixel, and the least and the
+ * most around it. */
 static void find_parts(const image *drawn, const image *all, int x, int y, float part[2]) {
     part[0] = INFINITY;
     part[1] = -INFINITY;
@@ -201,8 +201,8 @@ static void find_parts(const image *drawn, const image *all, int x, int y, float
     }
 }
 
-/* Filtered light must not arrive where no ray does, as behind the foot, and must where all do, as
- * before it. */
+/* Filtered light must not arrive where no ray does, as behind the foot, and must arrive where all
+ * rays do, as before it. */
 static void check_foot(const image *drawn, const image *exact, const image *all) {
     double leak = 0, lost = 0;
     int dark = 0, lit = 0;
@@ -249,12 +249,12 @@ static void the_foot_of_a_column_leaks_no_light(void **state) {
     close_stage(&s);
 }
 
-/* Of a sun over a floor that fills the image: as many a pixel as are asked for. And of a frame's
- * time the parts are no more than all of it. */
+/* Under a sun over a floor that fills the image, each pixel traces as many rays as are asked for;
+ * and the parts of a frame's time are no more than all of it. */
 static void statistics_are_of_what_was_done(void **state) {
     (void)state;
     stage s;
-    cli_error error = { "" };
+    base_error error = { "" };
     const shadow_settings settings = { .rays = 3 };
     open_stage(&s);
     set_lights(&s,
@@ -268,7 +268,7 @@ static void statistics_are_of_what_was_done(void **state) {
     trace_bvh *bvh = trace_create(&s.world);
     shadow *all = shadow_create(&s.world, bvh, NULL, &settings, &error);
     expect(all != NULL, &error);
-    s.frame.shadow = (render_pass) { shadow_frame, all };
+    s.frame.shadow = shadow_pass(all);
     const double start = timing_now();
     image pixels = render_image(s.renderer, &s.frame);
     const double passed = 1e3 * (timing_now() - start);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Ground that is not drawn, but receives shadows, against a closed form: of a sky of even radiance,
- * a ball of radius r that stands on the ground hides (r/d)³ from a point of the ground at a
- * distance d of its center, for it covers a cap of half angle asin(r/d), all above the horizon,
- * whose center is at the cosine r/d from the zenith. */
+/* Ground that is not drawn, but receives shadows, against a closed form: under a sky of even
+ * radiance, a ball of radius r that stands on the ground hides the fraction (r/d)³ from a point of
+ * the ground at distance d of its center, because it covers a cap of half angle asin(r/d), all
+ * above the horizon, whose center is at the cosine r/d from the zenith. */
 #include "tests/gpu/shadow.h"
 
 #include "app/render/shadow/ground.h"
@@ -28,7 +28,7 @@ static void make_ball(scene *world) {
     open_scene(&builder, world);
 }
 
-/* Even light from everywhere, and ground. */
+/* Makes a sky of even radiance, with or without ground. */
 static environment make_sky(bool ground) {
     static float ones[3 * 8 * 4];
     for (size_t i = 0; i < sizeof ones / sizeof *ones; i++)
@@ -36,8 +36,8 @@ static environment make_sky(bool ground) {
     return (environment) { .light = { 8, 4, ones }, .ground = ground };
 }
 
-/* What arrives where the middle of a pixel sees the ground under the ball; below 0 where it sees
- * something else. */
+/* Returns what arrives where the middle of a pixel sees the ground under the ball; below 0 where it
+ * sees something else. */
 static double arrives_at(const scene_camera *seen, int x, int y) {
     const lmp_vec3 eye = vec_load(seen->eye);
     const lmp_vec3 forward = vec_normalize(vec_sub(vec_load(seen->target), eye), vec(0, 0, 1));
@@ -99,7 +99,7 @@ static void a_ball_hides_of_an_even_sky_what_its_cap_does(void **state) {
     }
 }
 
-/* Nor does it hide anything from a camera under it. */
+/* Nor does the ground hide anything from a camera under it. */
 static void without_ground_nothing_past_the_scene_darkens(void **state) {
     (void)state;
     static unsigned char covered[PIXELS];

@@ -97,7 +97,8 @@ static inline scene *make_sheets(void) {
     return &sheet.world;
 }
 
-/* Looks at sheet i from z = ±3: it fills the middle half of the view's height. */
+/* Returns a frame that looks at sheet i from z = ±3: the sheet fills the middle half of the view's
+ * height. */
 static inline render_frame look_at(const scene *world, int i, float side) {
     return (render_frame) { .width = SIDE,
                             .height = SIDE,

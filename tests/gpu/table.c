@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Materials with tables on the GPU against lmp_shade at the very same surface points. */
-#include "app/render/shade/shade.h"
+#include "app/render/shade.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
 
@@ -20,7 +20,7 @@ static lmp_brdf_table *table_of(lmp_result made, lmp_brdf *brdf, int bands) {
     return table;
 }
 
-/* The largest difference to lmp_shade, as a part of the largest radiance. */
+/* Returns the largest difference to lmp_shade, relative to the largest radiance. */
 static double difference(gpu_renderer *renderer, const render_frame *frame, int *by_table) {
     static lmp_light lights[SCENE_LIGHTS_MAX];
     for (size_t i = 0; i < frame->light_count; i++)
@@ -52,10 +52,10 @@ static double difference(gpu_renderer *renderer, const render_frame *frame, int 
     return worst / peak;
 }
 
-/* By one method. */
+/* Checks the tables by one method. */
 static void agree_by(method_kind method, lmp_brdf_table *first, lmp_brdf_table *second, int bands,
                      double bound) {
-    cli_error error = { "" };
+    base_error error = { "" };
     scene world;
     expect(scene_load("builtin:ball", &(scene_options) { .no_cache = true }, &world, &error),
            &error);
@@ -117,7 +117,7 @@ static void anisotropic_tables_agree_with_lmp_shade_by_coefficients(void **state
     anisotropic_agree_by(METHOD_COEFFICIENTS, usual_bands());
 }
 
-/* A sky that no rotation leaves alone, 4 bands. */
+/* A sky of 4 bands that every rotation changes. */
 enum { SKY_BANDS = 4 };
 static environment sky_of(float *sh) {
     for (int i = 0; i < 3 * SKY_BANDS * SKY_BANDS; i++)
@@ -129,11 +129,11 @@ static environment sky_of(float *sh) {
                            .bands = SKY_BANDS };
 }
 
-/* The largest difference between the devices, as a part of the largest radiance. */
+/* Returns the largest difference between the devices, relative to the largest radiance. */
 static double difference_between_devices(gpu_renderer *renderer, render_frame *frame) {
-    frame->host = NULL;
+    frame->cpu_shader = NULL;
     image gpu = render_image(renderer, frame);
-    frame->host = shade_frame;
+    frame->cpu_shader = shade_frame;
     image cpu = render_image(renderer, frame);
     double worst = 0, peak = 0;
     for (size_t i = 0; i < (size_t)3 * (size_t)frame->width * (size_t)frame->height; i++) {
@@ -146,11 +146,11 @@ static double difference_between_devices(gpu_renderer *renderer, render_frame *f
     return worst / peak;
 }
 
-/* No lights: what either shows of the material is what it reflects of the environment. Few pixels
- * and bands, for drivers in software take long. */
+/* Without lights, what a material shows is what it reflects of the environment. Pixels and bands
+ * are few, because software drivers take long. */
 static void tables_reflect_an_environment_as_the_library_has_it(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     scene world;
     float sh[3 * SKY_BANDS * SKY_BANDS];
     const environment sky = sky_of(sh);
@@ -181,7 +181,7 @@ static void tables_reflect_an_environment_as_the_library_has_it(void **state) {
 
 static void tables_of_more_bands_are_refused(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     scene world;
     expect(scene_load("builtin:ball", &(scene_options) { .no_cache = true }, &world, &error),
            &error);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# lampion.glsl, preintegrated_lookup.h, preintegrated_lobe.glsl and preintegrated_brdf.glsl are valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
+# lampion.glsl, area.glsl, preintegrated_lookup.h, preintegrated_lobe.glsl and preintegrated_brdf.glsl are valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
 # (glslang's judgement), in a compute shader that calls all of it and in the example's fragment shader.
 set -eu
 . tests/checks/common.sh
@@ -25,20 +25,23 @@ layout(std430, binding = 0) buffer out_block { vec4 values[]; };
 #define LMP_LIGHT_COUNT       32
 #define LMP_LIGHT_SPHERE(at)   user_lights[2 * (at)]
 #define LMP_LIGHT_RADIANCE(at) user_lights[2 * (at) + 1].rgb
+layout(std430, binding = 6) readonly buffer area_block { vec4 user_areas[]; };
+#define LMP_AREA_COUNT 2
+#define LMP_AREA_TEXEL(at, texel) user_areas[11 * (at) + (texel)]
 GLSL
     material="lmp_material(vec3(0.5), vec3(0.04), 20.0)"
     if [ $(($2 % 2)) = 1 ]; then
         echo "layout(std430, binding = 5) readonly buffer ggx_block { vec4 user_ggx_texels[]; };"
         echo "#define LMP_GGX_TEXEL(at) user_ggx_texels[at]"
-        cat shaders/ggx.glsl
+        cat shaders/lampion/ggx.glsl
         material="lmp_metallic_roughness(vec3(0.5), 0.5, 0.4)"
     fi
-    cat shaders/lampion.glsl
+    cat shaders/lampion/lampion.glsl
     if [ $(($2 % 2)) = 1 ]; then
-        cat shaders/coat.glsl
+        cat shaders/lampion/coat.glsl
         material="lmp_lobes_of(surface, lmp_coat(1.0, 0.4))"
     fi
-    cat shaders/coefficients.glsl shaders/preintegrated_lookup.h
+    cat shaders/lampion/coefficients.glsl shaders/lampion/area.glsl shaders/lampion/preintegrated_lookup.h
     cat <<'GLSL'
 layout(binding = 1) uniform highp sampler2D user_pairs;
 layout(std430, binding = 2) readonly buffer lobe_block { vec4 user_shape; vec4 user_cells[64]; float user_remap[LMP_LOOKUP_REMAP_COUNT]; };
@@ -47,14 +50,14 @@ layout(std430, binding = 2) readonly buffer lobe_block { vec4 user_shape; vec4 u
 #define LMP_PREINTEGRATED_LOBE_REMAP(at) user_remap[at]
 #define LMP_PREINTEGRATED_LOBE_SHAPE   user_shape
 GLSL
-    cat shaders/preintegrated_lobe.glsl
+    cat shaders/lampion/preintegrated_lobe.glsl
     cat <<'GLSL'
 layout(binding = 3) uniform highp sampler2D user_texels;
 layout(std430, binding = 4) readonly buffer brdf_block { float user_brdf_values[]; };
 #define LMP_PREINTEGRATED_BRDF_TEXEL(at) textureLod(user_texels, at / 4096.0, 0.0).rgb
 #define LMP_PREINTEGRATED_BRDF_VALUE(at) user_brdf_values[at]
 GLSL
-    cat shaders/preintegrated_brdf.glsl
+    cat shaders/lampion/preintegrated_brdf.glsl
     echo "#define MATERIAL $material"
     cat <<'GLSL'
 void main() {
@@ -67,21 +70,21 @@ void main() {
         vec4(lmp_shade_zonal(surface, MATERIAL) + lmp_shade_coefficients(surface, MATERIAL) +
                  lmp_shade_preintegrated(surface, MATERIAL) +
                  lmp_shade_preintegrated_brdf(surface, 0),
-             sh[0]);
+             sh[0] + lmp_area_irradiance(0, surface.position, surface.normal));
 }
 GLSL
 }
 
-# window VERSION: the example's fragment shader, with what its program puts before it
+# window VERSION: prints the example's fragment shader, with what its program puts before it.
 window() {
     echo "#version $1"
     echo "precision highp float; precision highp int;"
     sed -n 's/^ *"\(#define LMP_.*\|uniform vec4 lights.*\)\\n".*/\1/p; /^static const char head/s/.*/#define LMP_BANDS 8/p' examples/lanterns.c |
         awk '!seen[$0]++'
-    cat shaders/lampion.glsl examples/lanterns.frag
+    cat shaders/lampion/lampion.glsl examples/lanterns.frag
 }
 
-# check VERSION BANDS WINDOW OPTION…
+# check VERSION BANDS WINDOW OPTION…: validates a shader.
 check() {
     shader "$1" "$2" "$3" >"$WORK/shader.comp"
     shift 3
@@ -102,7 +105,7 @@ for version in "450 core" "300 es"; do
     {
         echo "#version $version"
         echo "precision highp float;"
-        cat shaders/probe.glsl
+        cat shaders/lampion/probe.glsl
         echo "uniform vec4 a[3], b[3], c; in vec3 n; out vec4 color;"
         echo "void main() { color = vec4(lmp_probe_irradiance(a, b, c, normalize(n)), 1.0); }"
     } >"$WORK/probe.frag"
@@ -112,7 +115,7 @@ for version in "450 core" "300 es" "310 es"; do
     window "$version" >"$WORK/window.frag"
     glslangValidator "$WORK/window.frag" >"$WORK/log" 2>&1 || fail "lanterns.frag: $(cat "$WORK/log")"
 done
-# the oldest of desktop's, and the one before it by an extension, without which lines do not go on
+# The oldest desktop version, and the one before it by an extension, without which lines cannot be continued.
 pack='#extension GL_ARB_shading_language_420pack : require'
 sed '1s/.*/#version 420 core/' "$WORK/window.frag" >"$WORK/old.frag"
 glslangValidator "$WORK/old.frag" >"$WORK/log" 2>&1 || fail "GLSL 4.20: $(cat "$WORK/log")"
@@ -120,7 +123,7 @@ sed "1s/.*/#version 330 core\n$pack/" "$WORK/window.frag" >"$WORK/old.frag"
 glslangValidator "$WORK/old.frag" >"$WORK/log" 2>&1 || fail "GLSL 3.30: $(cat "$WORK/log")"
 sed 1d "$WORK/window.frag" | sed '1s/^/#version 330 core\n/' >"$WORK/old.frag"
 ! glslangValidator "$WORK/old.frag" >"$WORK/log" 2>&1 || fail "GLSL 3.30 needs no extension"
-# Names of one letter are the includer's: each letter in turn for what the macros read.
+# Names of one letter are the includer's, so each letter in turn is used for what the macros read.
 letters=$(echo a b c d e f g h i j k l m n o p q r s t u v w x y z | sed 's/.*/& &/' | awk '{ for (i = 27; i <= 52; i++) $i = toupper($i); print }')
 shader "310 es" 3 1 | sed 's/^#define LMP_LIGHT_COUNT .*/uniform int user_count;\n#define LMP_LIGHT_COUNT user_count/' >"$WORK/named.comp"
 step=5
@@ -128,7 +131,7 @@ step=5
 for first in $(seq 1 $step 52); do
     index=$first
     renamed=
-    for name in lights count ggx_texels pairs cells remap shape texels brdf_values; do
+    for name in lights areas count ggx_texels pairs cells remap shape texels brdf_values; do
         renamed="$renamed;s/\\buser_$name\\b/$(echo "$letters" | cut -d' ' -f$index)/g"
         index=$((index % 52 + 1))
     done

@@ -5,7 +5,7 @@ set -eu
 . tests/checks/common.sh
 export ASAN_OPTIONS=detect_leaks=0 # GL drivers leak at exit
 variants=$BUILD/variants sources=$SOURCE/tests/gpu/variants steps=$BUILD/tests/gpu/test_gpu_variants
-sizes="-DLIGHTS=5 -DSURFACES=64 -DTEXELS=5152"
+sizes="-DLIGHTS=5 -DSURFACES=64 -DTEXELS=5152 -DAREAS=4"
 "$steps" inputs "$WORK/inputs"
 
 # hlsl OUT BANDS OPTION…: compiles the user's shader with so many bands

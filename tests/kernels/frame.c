@@ -2,7 +2,7 @@
 /* Whole images of the CPU's device: the same bits by every instruction set's kernels, by Embree's
  * instruction sets, by each of libm's, for any number of threads, and, by golden checksums, by
  * every compiler. */
-#include "app/render/renderer.h"
+#include "app/render/renderer/renderer.h"
 #include "app/render/shadow/shadow.h"
 
 #include "tests/oracle/check.h"
@@ -16,12 +16,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#define GOLDEN_BALLS  0xaa74a4ca7568955a
-#define GOLDEN_ATRIUM 0x8888000e62dce375
+#define GOLDEN_BALLS  0x4ade70437cf5ede1
+#define GOLDEN_ATRIUM 0xafaebeea167b4551
 
 enum { WIDTH = 80, HEIGHT = 45, BANDS = 6 };
 
-/* FNV-1a. */
+/* Adds bytes to an FNV-1a hash. */
 static uint64_t add_bytes(uint64_t hash, const void *data, size_t size) {
     const unsigned char *bytes = data;
     for (size_t i = 0; i < size; i++)
@@ -29,9 +29,9 @@ static uint64_t add_bytes(uint64_t hash, const void *data, size_t size) {
     return hash;
 }
 
-/* The radiances and the bytes shown of them. */
+/* Returns a hash of the radiances, and of the bytes shown of them. */
 static uint64_t draw(const scene *world, bool shadows) {
-    cli_error error = { "" };
+    base_error error = { "" };
     render_device device;
     image pixels;
     static unsigned char rgb8[3 * WIDTH * HEIGHT];
@@ -49,7 +49,8 @@ static uint64_t draw(const scene *world, bool shadows) {
                                  .lights = world->lights,
                                  .light_count = world->light_count,
                                  .samples = 3,
-                                 .shadow = { shadows ? shadow_frame : NULL, cast } };
+                                 .shadow =
+                                     shadows ? shadow_pass(cast) : (render_pass) { .user = NULL } };
     if (!renderer_draw(renderer, &frame, NULL, &error) ||
         !renderer_read_image(renderer, &pixels, &error))
         fail_msg("%s", error.text);
@@ -68,7 +69,7 @@ static uint64_t draw(const scene *world, bool shadows) {
 static void check_scene(const char *name, bool shadows, uint64_t golden) {
     static const char *const configurations[] = { "isa=sse2", "isa=sse4.2", "isa=avx2" };
     scene world;
-    cli_error error = { "" };
+    base_error error = { "" };
     if (!scene_load(name, &(scene_options) { .no_cache = true }, &world, &error))
         fail_msg("%s", error.text);
     const uint64_t first = draw(&world, shadows);
@@ -77,10 +78,10 @@ static void check_scene(const char *name, bool shadows, uint64_t golden) {
     for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag <<= 1) {
         if (!(lmp_cpu_flags() & flag))
             continue;
-        lmp_cpu_mask(flag);
+        lmp_cpu_limit(flag);
         assert_true(draw(&world, shadows) == golden);
     }
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
     static const int counts[] = { 1, 2, 7 };
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
         omp_set_num_threads(counts[i]);
@@ -107,7 +108,7 @@ static void the_atrium_has_the_same_bits_everywhere(void **state) {
 
 /* --- the C library ---------------------------------------------------------------------------- */
 
-/* Where libm's sine lies in it: on CPUs of other features another function. */
+/* Returns where libm's sine lies in it: another function on CPUs with other features. */
 static ptrdiff_t place_of_sine(void) {
     void *library = dlopen("libm.so.6", RTLD_LAZY), *sine = library ? dlsym(library, "sin") : NULL;
     Dl_info info;
@@ -118,7 +119,7 @@ static ptrdiff_t place_of_sine(void) {
 
 static uint64_t draw_atrium(void) {
     scene world;
-    cli_error error = { "" };
+    base_error error = { "" };
     if (!scene_load("builtin:atrium", &(scene_options) { .no_cache = true }, &world, &error))
         fail_msg("%s", error.text);
     const uint64_t hash = draw(&world, true);
@@ -126,7 +127,7 @@ static uint64_t draw_atrium(void) {
     return hash;
 }
 
-/* In a process for which glibc takes the CPU to be an older one. */
+/* The process runs with a glibc that takes the CPU for an older one. */
 static void the_atrium_has_the_same_bits_by_an_older_libm(void **state) {
     (void)state;
     char self[4096], command[4400];
@@ -142,7 +143,7 @@ static void the_atrium_has_the_same_bits_by_an_older_libm(void **state) {
     assert_int_equal(fscanf(older, "%" SCNx64 " %td", &hash, &place), 2);
     assert_int_equal(pclose(older), 0);
     assert_true(hash == GOLDEN_ATRIUM);
-    if (lmp_cpu_flags() & LMP_CPU_AVX2) /* else this process has the older functions, too */
+    if (lmp_cpu_flags() & LMP_CPU_AVX2) /* otherwise this process runs the older functions, too */
         assert_int_not_equal(place, place_of_sine());
 }
 

@@ -27,18 +27,19 @@ static const float special[][4] = {
     { 0, 0, 1, 2 },          /* inside */
     { 0.25f, 0.5f, -1, 4 },  /* inside */
     { 0, 0, 0, 1 },          /* at the center */
-    { 0, 0, 0, 0 },          /* nothing */
+    { 0, 0, 0, 0 },          /* nothing is seen */
     { 1, 0, 0, 1e-6f },      /* tiny, on an axis */
     { 0, -1, 0, 1e-6f },     /* tiny */
     { 0, 0, -1, 0.5f },      /* south pole */
     { 1024, 1, -3, 0.001f }, /* far */
     { -1, 0, 0, 0.999f },    /* almost touching */
     { 0.0009765625f, 0, 1, 0.25f },
-    { 1, 2, 2, 0 }, /* no size */
+    { 1, 2, 2, 0 }, /* size 0 */
 };
 enum { SPECIAL = sizeof special / sizeof *special };
 
-/* The same numbers everywhere, for the checksums: bits of a linear congruence. */
+/* The state of a linear congruence, whose bits give the same numbers on every machine, for the
+ * checksums. */
 static uint64_t grid_state;
 static float grid(float scale) {
     grid_state = grid_state * 6364136223846793005u + 1442695040888963407u;
@@ -56,8 +57,8 @@ static void set_unit(float (*at)[COUNT + 16], int i, float x, float y, float z) 
     at[2][i] = length > 0 ? z / length : 1;
 }
 
-/* Normals along the axes and views along them, level and from below; then any. Past the first 32,
- * which have all sorts of exponents, neighbors share one. */
+/* Makes surfaces: normals along the axes and views along them, level and from below, then any. The
+ * first 32 have all sorts of exponents; after that neighbors share one. */
 static void surfaces_create(inputs *in) {
     static const float worst[][6] = { { 0, 0, 1, 0, 0, 1 },
                                       { 0, 1, 0, 0, 1, 0 },

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* The kernels of fields: cubics are kept, and both agree where both have a value. */
-#include "src/kernels/kernels.h"
+#include "src/kernels/dispatch.h"
 #include "tests/oracle/check.h"
 
 #include <lampion/cpu.h>
 
 #include <math.h>
 
-/* x^i y^j z^k, i + j + k <= 3, and its derivatives. */
+/* Evaluates x^i y^j z^k, i + j + k <= 3, and its derivatives. */
 static void monomials(const double at[3], double value[20], double slopes[3][20]) {
-    double power[3][5] = { { 0 } }; /* of -1 … 3 */
+    double power[3][5] = { { 0 } }; /* powers -1 … 3 */
     int count = 0;
     for (int a = 0; a < 3; a++)
         for (int i = 0; i <= 3; i++)
@@ -24,7 +24,7 @@ static void monomials(const double at[3], double value[20], double slopes[3][20]
             }
 }
 
-/* One cell, whose nodes hold the 20 monomials; at so many points as end in a part of a register. */
+/* The nodes of one cell hold the 20 monomials; the number of points ends within a register. */
 static void interpolation_keeps_cubics(void **test) {
     (void)test;
     enum { POINTS = 37, PADDED = 48, MONOMIALS = 20, STRIDE = 32 };
@@ -47,14 +47,14 @@ static void interpolation_keeps_cubics(void **test) {
         for (int a = 0; a < 3; a++)
             s[a][i] = (float)check_random();
     }
-    const lmp_kernel_cells cells = {
+    const lmpi_kernel_cells cells = {
         nodes, STRIDE, { 0.5f, 2, 1.25f }, corners, { s[0], s[1], s[2] }
     };
-    const lmp_kernel_out to = { out, MONOMIALS, 0 };
+    const lmpi_kernel_out to = { out, MONOMIALS, 0 };
     for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
-        lmp_kernels kernels;
-        (void)lmp_kernels_init(&kernels, flag);
-        kernels.interpolate(MONOMIALS, &cells, POINTS, &to);
+        lmpi_kernels kernels;
+        (void)lmpi_kernels_init(&kernels, flag);
+        kernels.field.interpolate(MONOMIALS, &cells, POINTS, &to);
         for (int i = 0; i < POINTS; i++) {
             const double at[3] = { edge[0] * (double)s[0][i], edge[1] * (double)s[1][i],
                                    edge[2] * (double)s[2][i] };
@@ -64,14 +64,14 @@ static void interpolation_keeps_cubics(void **test) {
     }
 }
 
-/* A brick between nodes that hold the 20 monomials. */
+/* A brick lies between nodes that hold the 20 monomials. */
 static void refined_nodes_keep_cubics(void **test) {
     (void)test;
     enum { MONOMIALS = 20, STRIDE = 32 };
     static float from[12 * 4 * STRIDE] __attribute__((aligned(64)));
     static float nodes[16 * 4 * STRIDE] __attribute__((aligned(64)));
     static const double edge[3] = { 0.5, 2, 1.25 };
-    lmp_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f }, .next = nodes };
+    lmpi_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f }, .next = nodes };
     double value[MONOMIALS], slopes[3][MONOMIALS];
     for (int k = 0; k < 12; k++) {
         brick.from[k] = from + 4 * k * STRIDE;
@@ -82,9 +82,9 @@ static void refined_nodes_keep_cubics(void **test) {
                 from[(4 * k + q) * STRIDE + v] = (float)(q == 0 ? value[v] : slopes[q - 1][v]);
     }
     for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
-        lmp_kernels kernels;
-        (void)lmp_kernels_init(&kernels, flag);
-        kernels.refine(&brick, nodes);
+        lmpi_kernels kernels;
+        (void)lmpi_kernels_init(&kernels, flag);
+        kernels.field.refine(&brick, nodes);
         for (int i = 0; i < 16; i++) {
             const float *node = nodes + 4 * i * STRIDE;
             monomials((double[3]) { 0.5 * edge[0] * (i % 4), 0.5 * edge[1] * (i / 4 % 2),
@@ -97,7 +97,7 @@ static void refined_nodes_keep_cubics(void **test) {
     }
 }
 
-/* Of any nodes, cubic or not: what interpolation has there. */
+/* Refined nodes agree with interpolation for any nodes, cubic or not. */
 static void refined_nodes_are_interpolated(void **test) {
     (void)test;
     enum { STRIDE = 16 };
@@ -106,8 +106,8 @@ static void refined_nodes_are_interpolated(void **test) {
     static float s[3][16] __attribute__((aligned(64)));
     uint32_t corners[16 * 8];
     float out[16 * STRIDE];
-    lmp_kernels kernels;
-    lmp_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f }, .next = nodes };
+    lmpi_kernels kernels;
+    lmpi_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f }, .next = nodes };
     for (size_t i = 0; i < sizeof from / sizeof *from; i++)
         from[i] = (float)check_random();
     for (uint32_t i = 0; i < 12; i++)
@@ -119,34 +119,34 @@ static void refined_nodes_are_interpolated(void **test) {
         s[1][i] = 0.5f * (float)(i / 4 % 2);
         s[2][i] = 0.5f * (float)(i / 8);
     }
-    const lmp_kernel_cells cells = { from, STRIDE, brick.cell, corners, { s[0], s[1], s[2] } };
-    const lmp_kernel_out to = { out, STRIDE, 0 };
-    (void)lmp_kernels_init(&kernels, LMP_CPU_ALL);
-    kernels.interpolate(STRIDE, &cells, 16, &to);
-    kernels.refine(&brick, nodes);
+    const lmpi_kernel_cells cells = { from, STRIDE, brick.cell, corners, { s[0], s[1], s[2] } };
+    const lmpi_kernel_out to = { out, STRIDE, 0 };
+    (void)lmpi_kernels_init(&kernels, LMP_CPU_ALL);
+    kernels.field.interpolate(STRIDE, &cells, 16, &to);
+    kernels.field.refine(&brick, nodes);
     for (int i = 0; i < 16; i++)
         for (int v = 0; v < STRIDE; v++)
             CHECK_WITHIN((double)fabsf(nodes[4 * i * STRIDE + v] - out[i * STRIDE + v]), 1e-6);
 }
 
-/* To the bits, by every instruction set. */
+/* The sums have the same bits on every instruction set. */
 static void refined_nodes_are_added(void **test) {
     (void)test;
     enum { STRIDE = 48, ALL = 16 * 4 * STRIDE };
     static float from[12 * 4 * STRIDE] __attribute__((aligned(64)));
     static float nodes[ALL] __attribute__((aligned(64))), sums[ALL] __attribute__((aligned(64)));
-    lmp_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f }, .next = nodes };
+    lmpi_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f }, .next = nodes };
     for (size_t i = 0; i < sizeof from / sizeof *from; i++)
         from[i] = (float)check_random();
     for (int i = 0; i < 12; i++)
         brick.from[i] = from + 4 * i * STRIDE;
     for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
-        lmp_kernels kernels;
-        (void)lmp_kernels_init(&kernels, flag);
-        kernels.refine(&brick, nodes);
+        lmpi_kernels kernels;
+        (void)lmpi_kernels_init(&kernels, flag);
+        kernels.field.refine(&brick, nodes);
         for (int i = 0; i < ALL; i++)
             sums[i] = from[i % STRIDE];
-        kernels.refine_add(&brick, sums);
+        kernels.field.refine_add(&brick, sums);
         for (int i = 0; i < ALL; i++) {
             const float sum = from[i % STRIDE] + nodes[i];
             assert_memory_equal(&sums[i], &sum, sizeof sum);

@@ -8,17 +8,17 @@
 static const int few_bands[] = { 1, 2, 3, 5, 10, 11, 33, 64, 65, 128 };
 enum { FEW = sizeof few_bands / sizeof *few_bands };
 
-static unsigned available(lmp_kernels tables[4]) {
+static unsigned available(lmpi_kernels tables[4]) {
     unsigned count = 0;
     for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2)
         if (lmp_cpu_flags() & flag)
-            assert_int_equal(lmp_kernels_init(&tables[count++], flag), flag);
+            assert_int_equal(lmpi_kernels_init(&tables[count++], flag), flag);
     return count;
 }
 
-/* The scalar build's values of a kernel, each made once, when it is first asked for. */
+/* The scalar build's values of a kernel, each made once, when first needed. */
 typedef struct truths {
-    const lmp_kernels *scalar;
+    const lmpi_kernels *scalar;
     kind which;
     int bands;
     float *values[2][COUNT + 1]; /* by layout and count */
@@ -37,9 +37,9 @@ static void truths_free(truths *t) {
             free(t->values[planar][count]);
 }
 
-/* What a kernel does otherwise than the scalar build, or NULL: its bits, or memory beside the
- * output. Of the scalar build itself the memory is judged. */
-static const char *difference(const lmp_kernels *k, truths *t, const inputs *in, size_t count,
+/* Returns how a kernel differs from the scalar build, in bits or in memory beside the output, or
+ * NULL. For the scalar build itself only the memory is checked. */
+static const char *difference(const lmpi_kernels *k, truths *t, const inputs *in, size_t count,
                               int planar) {
     const size_t size = count * values_of(t->which, t->bands) * sizeof(float);
     const float *const expected = truth(t, in, count, planar);
@@ -53,7 +53,7 @@ static const char *difference(const lmp_kernels *k, truths *t, const inputs *in,
     return found;
 }
 
-static bool agrees(const lmp_kernels *k, truths *t, const inputs *in, size_t count, int planar) {
+static bool agrees(const lmpi_kernels *k, truths *t, const inputs *in, size_t count, int planar) {
     const char *found = difference(k, t, in, count, planar);
     if (found)
         printf("%s %s: %d bands, %zu elements, %s: %s\n", k->name, kind_names[t->which], t->bands,
@@ -61,7 +61,7 @@ static bool agrees(const lmp_kernels *k, truths *t, const inputs *in, size_t cou
     return !found;
 }
 
-static bool agrees_at_any_count(const lmp_kernels *k, truths *t, const inputs *in) {
+static bool agrees_at_any_count(const lmpi_kernels *k, truths *t, const inputs *in) {
     const size_t lanes = (size_t)k->lanes;
     const size_t counts[] = { 0, 1, lanes - 1, lanes, lanes + 1, 4 * lanes, 4 * lanes + 3, COUNT };
     bool same = true;
@@ -74,7 +74,7 @@ static bool agrees_at_any_count(const lmp_kernels *k, truths *t, const inputs *i
 
 static void every_instruction_set_gives_the_same_bits(void **test) {
     (void)test;
-    lmp_kernels tables[4];
+    lmpi_kernels tables[4];
     const unsigned count = available(tables);
     inputs *in = inputs_create(drawn_seed());
     bool same = true;
@@ -93,8 +93,8 @@ static void every_instruction_set_gives_the_same_bits(void **test) {
 
 static void both_layouts_hold_the_same_bits(void **test) {
     (void)test;
-    lmp_kernels scalar;
-    lmp_kernels_init(&scalar, LMP_CPU_SCALAR);
+    lmpi_kernels scalar;
+    lmpi_kernels_init(&scalar, LMP_CPU_SCALAR);
     inputs *in = inputs_create(drawn_seed());
     for (int which = 0; which < KINDS; which++)
         for (int b = 0; b < 7; b++) {
@@ -116,7 +116,7 @@ static const uint32_t golden[KINDS][FEW] = {
 #include "tests/kernels/golden.h"
 };
 
-static uint32_t checksum(const lmp_kernels *k, kind which, int bands, const inputs *in) {
+static uint32_t checksum(const lmpi_kernels *k, kind which, int bands, const inputs *in) {
     const size_t count = 35;
     float *values = results(k, which, bands, in, count, 1);
     assert_non_null(values);
@@ -133,9 +133,9 @@ static uint32_t checksum(const lmp_kernels *k, kind which, int bands, const inpu
 /* LAMPION_GOLDEN=1 prints the rows of golden.h. */
 static void every_compiler_gives_the_bits_of_the_checksums(void **test) {
     (void)test;
-    lmp_kernels tables[4];
+    lmpi_kernels tables[4];
     const unsigned count = available(tables);
-    inputs *in = inputs_create(2020); /* the checksums' */
+    inputs *in = inputs_create(2020); /* the inputs of the checksums */
     for (unsigned i = 0; i < count; i++)
         for (int which = 0; which < KINDS; which++)
             for (int b = 0; b < FEW; b++) {
@@ -152,121 +152,122 @@ static void every_compiler_gives_the_bits_of_the_checksums(void **test) {
 
 /* --- wrong kernels ---------------------------------------------------------------------------- */
 
-/* One ulp in one lane of one value. */
-static lmp_kernels honest;
+/* The wrong kernels change one value in one lane by one ulp. */
+static lmpi_kernels honest;
 static struct { size_t element, value; } flaw;
 
-static void spoil(const lmp_kernel_out *out) {
+static void spoil(const lmpi_kernel_out *out) {
     float *at = out->at + (out->planar ? flaw.value * out->stride + flaw.element
                                        : flaw.element * out->stride + flaw.value);
     *at = nextafterf(*at, 1e9f);
 }
 
-static void spoil_accumulated(const lmp_kernel_accumulated *sums) {
+static void spoil_accumulated(const lmpi_kernel_accumulated *sums) {
     float *const *planes = flaw.value < 3 ? sums->diffuse : sums->specular[flaw.value / 3 - 1];
     float *at = planes[flaw.value % 3] + flaw.element;
     *at = nextafterf(*at, 1e9f);
 }
 
-static void wrong_eval(int bands, const lmp_kernel_vec3 *directions, size_t count,
-                       const lmp_kernel_out *out) {
-    honest.eval(bands, directions, count, out);
+static void wrong_eval(int bands, const lmpi_kernel_vec3 *directions, size_t count,
+                       const lmpi_kernel_out *out) {
+    honest.sh.eval(bands, directions, count, out);
     spoil(out);
 }
-static void wrong_dot(size_t values, const lmp_kernel_in *a, const lmp_kernel_in *b, size_t count,
+static void wrong_dot(size_t values, const lmpi_kernel_in *a, const lmpi_kernel_in *b, size_t count,
                       float *dots) {
-    honest.dot(values, a, b, count, dots);
-    spoil(&(lmp_kernel_out) { dots, 1, 0 });
+    honest.sh.dot(values, a, b, count, dots);
+    spoil(&(lmpi_kernel_out) { dots, 1, 0 });
 }
-static void wrong_rotate(int bands, const float *matrices, const lmp_kernel_in *in, size_t count,
-                         const lmp_kernel_out *out) {
-    honest.rotate(bands, matrices, in, count, out);
+static void wrong_rotate(int bands, const float *matrices, const lmpi_kernel_in *in, size_t count,
+                         const lmpi_kernel_out *out) {
+    honest.sh.rotate(bands, matrices, in, count, out);
     spoil(out);
 }
 static void wrong_zonal(int bands, const float *radius, const float *distance, size_t count,
-                        const lmp_kernel_out *out) {
-    honest.zonal(bands, radius, distance, count, out);
+                        const lmpi_kernel_out *out) {
+    honest.light.zonal(bands, radius, distance, count, out);
     spoil(out);
 }
-static void wrong_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
-                          const lmp_kernel_out *out) {
-    honest.project(bands, pairs, count, out);
+static void wrong_project(int bands, const lmpi_kernel_pairs *pairs, size_t count,
+                          const lmpi_kernel_out *out) {
+    honest.light.project(bands, pairs, count, out);
     spoil(out);
 }
-static void wrong_accumulate(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
-                             const lmp_kernel_vec3 *points, size_t count,
-                             const lmp_kernel_out *out) {
-    honest.accumulate(scratch, bands, lights, points, count, out);
+static void wrong_accumulate(const lmp_scratch *scratch, int bands,
+                             const lmpi_kernel_lights *lights, const lmpi_kernel_vec3 *points,
+                             size_t count, const lmpi_kernel_out *out) {
+    honest.light.accumulate(scratch, bands, lights, points, count, out);
     spoil(out);
 }
 static void wrong_accumulate_more(const lmp_scratch *scratch, int bands,
-                                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
-                                  size_t count, const lmp_kernel_out *out) {
-    honest.accumulate_more(scratch, bands, lights, points, count, out);
+                                  const lmpi_kernel_lights *lights, const lmpi_kernel_vec3 *points,
+                                  size_t count, const lmpi_kernel_out *out) {
+    honest.light.accumulate_more(scratch, bands, lights, points, count, out);
     spoil(out);
 }
 static void wrong_add(const float *sh, size_t first, size_t values, const float *factors,
-                      size_t count, const lmp_kernel_out *out) {
-    honest.add(sh, first, values, factors, count, out);
+                      size_t count, const lmpi_kernel_out *out) {
+    honest.light.add(sh, first, values, factors, count, out);
     spoil(out);
 }
-static void wrong_cone(const lmp_packed_light *cone, const lmp_kernel_vec3 *points, size_t count,
+static void wrong_cone(const lmpi_packed_light *cone, const lmpi_kernel_vec3 *points, size_t count,
                        float *factors) {
-    honest.cone(cone, points, count, factors);
-    spoil(&(lmp_kernel_out) { factors, 1, 0 });
+    honest.light.cone(cone, points, count, factors);
+    spoil(&(lmpi_kernel_out) { factors, 1, 0 });
 }
-/* Its derivatives follow the values (run). */
-static void wrong_gradient(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
-                           const lmp_kernel_vec3 *points, float cos_min, size_t count,
-                           const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    honest.gradient(scratch, bands, lights, points, cos_min, count, out, gradient);
+/* The derivatives follow the values (run.h). */
+static void wrong_gradient(const lmp_scratch *scratch, int bands, const lmpi_kernel_lights *lights,
+                           const lmpi_kernel_vec3 *points, float cos_min, size_t count,
+                           const lmpi_kernel_out *out, const lmpi_kernel_out *gradient) {
+    honest.light.gradient(scratch, bands, lights, points, cos_min, count, out, gradient);
     spoil(out);
 }
-static void wrong_lobe(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
-                       const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,
-                       const lmp_kernel_out *out) {
-    honest.lobe(bands, lambda, axes, lights, points, count, out);
+static void wrong_lobe(int bands, const float *lambda, const lmpi_kernel_vec3 *axes,
+                       const lmpi_kernel_lights *lights, const lmpi_kernel_vec3 *points,
+                       size_t count, const lmpi_kernel_out *out) {
+    honest.lobe.response(bands, lambda, axes, lights, points, count, out);
     spoil(out);
 }
 static void wrong_fading_gradient(const lmp_scratch *scratch, int bands,
-                                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
-                                  float cos_min, lmp_kernel_fade fade, size_t count,
-                                  const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    honest.fading_gradient(scratch, bands, lights, points, cos_min, fade, count, out, gradient);
+                                  const lmpi_kernel_lights *lights, const lmpi_kernel_vec3 *points,
+                                  float cos_min, lmpi_kernel_fade fade, size_t count,
+                                  const lmpi_kernel_out *out, const lmpi_kernel_out *gradient) {
+    honest.light.fading_gradient(scratch, bands, lights, points, cos_min, fade, count, out,
+                                 gradient);
     spoil(out);
 }
-static void wrong_interpolate(size_t values, const lmp_kernel_cells *cells, size_t count,
-                              const lmp_kernel_out *out) {
-    honest.interpolate(values, cells, count, out);
+static void wrong_interpolate(size_t values, const lmpi_kernel_cells *cells, size_t count,
+                              const lmpi_kernel_out *out) {
+    honest.field.interpolate(values, cells, count, out);
     spoil(out);
 }
-static void wrong_refine(const lmp_kernel_brick *brick, float *nodes) {
-    honest.refine(brick, nodes);
+static void wrong_refine(const lmpi_kernel_brick *brick, float *nodes) {
+    honest.field.refine(brick, nodes);
     nodes[flaw.element % 16 * 4 * brick->stride] += 1;
 }
 static void wrong_shade_field(int bands, const float *window, const float *diffuse,
-                              const lmp_kernel_surfaces *surfaces, const lmp_kernel_in *sh,
-                              size_t count, const lmp_kernel_accumulated *accumulated) {
-    honest.shade_field(bands, window, diffuse, surfaces, sh, count, accumulated);
+                              const lmpi_kernel_surfaces *surfaces, const lmpi_kernel_in *sh,
+                              size_t count, const lmpi_kernel_accumulated *accumulated) {
+    honest.shade.field(bands, window, diffuse, surfaces, sh, count, accumulated);
     spoil_accumulated(accumulated);
 }
-static void wrong_eval_gradient(int bands, const lmp_kernel_vec3 *directions, size_t count,
-                                const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    honest.eval_gradient(bands, directions, count, out, gradient);
+static void wrong_eval_gradient(int bands, const lmpi_kernel_vec3 *directions, size_t count,
+                                const lmpi_kernel_out *out, const lmpi_kernel_out *gradient) {
+    honest.sh.eval_gradient(bands, directions, count, out, gradient);
     spoil(out);
 }
 static void wrong_reconstruct(int bands, const float *factors, const float *exponents,
-                              const float *const planes[3], const lmp_kernel_vec3 *directions,
-                              size_t count, const lmp_kernel_out *out) {
-    honest.reconstruct(bands, factors, exponents, planes, directions, count, out);
+                              const float *const planes[3], const lmpi_kernel_vec3 *directions,
+                              size_t count, const lmpi_kernel_out *out) {
+    honest.sh.reconstruct(bands, factors, exponents, planes, directions, count, out);
     spoil(out);
 }
-/* Of every image. */
-static void wrong_image(int bands, int m, int orders, const lmp_kernel_texels *texels, size_t count,
-                        lmp_kernel_texel_sums *sums) {
+/* Adds the error to every image. */
+static void wrong_image(int bands, int m, int orders, const lmpi_kernel_texels *texels,
+                        size_t count, lmpi_kernel_texel_sums *sums) {
     const int n = (int)LMP_SH_COUNT(bands), index = (int)flaw.value % n;
     int l = 0;
-    honest.image(bands, m, orders, texels, count, sums);
+    honest.sh.image(bands, m, orders, texels, count, sums);
     while ((l + 1) * (l + 1) <= index)
         l++;
     const int order = index - l * l - l, i = abs(order) - m;
@@ -275,73 +276,74 @@ static void wrong_image(int bands, int m, int orders, const lmp_kernel_texels *t
     double *at = &(order < 0 ? sums->sine : sums->cosine)[i][flaw.value / (size_t)n][l];
     *at = (double)nextafterf((float)*at, 1e9f);
 }
-static void long_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
-                         const lmp_kernel_out *out) {
-    honest.project(bands, pairs, count, out);
+static void long_project(int bands, const lmpi_kernel_pairs *pairs, size_t count,
+                         const lmpi_kernel_out *out) {
+    honest.light.project(bands, pairs, count, out);
     out->at[-1] = 0;
 }
 
-static void wrong_shade_zonal(int bands, const float *window, const lmp_kernel_surfaces *surfaces,
-                              const lmp_packed_light *lights, size_t light_count, size_t count,
-                              const lmp_kernel_accumulated *accumulated) {
-    honest.shade_zonal(bands, window, surfaces, lights, light_count, count, accumulated);
+static void wrong_shade_zonal(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
+                              const lmpi_packed_light *lights, size_t light_count, size_t count,
+                              const lmpi_kernel_accumulated *accumulated) {
+    honest.shade.zonal(bands, window, surfaces, lights, light_count, count, accumulated);
     spoil_accumulated(accumulated);
 }
-static void wrong_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe *lobe,
-                                           const lmp_kernel_lobe_positions *specular,
-                                           const lmp_kernel_surfaces *surfaces,
-                                           const lmp_packed_light *lights, size_t light_count,
+static void wrong_shade_preintegrated_lobe(const lmpi_kernel_preintegrated_lobe *lobe,
+                                           const lmpi_kernel_lobe_positions *specular,
+                                           const lmpi_kernel_surfaces *surfaces,
+                                           const lmpi_packed_light *lights, size_t light_count,
                                            size_t count,
-                                           const lmp_kernel_accumulated *accumulated) {
-    honest.shade_preintegrated_lobe(lobe, specular, surfaces, lights, light_count, count,
+                                           const lmpi_kernel_accumulated *accumulated) {
+    honest.shade.preintegrated_lobe(lobe, specular, surfaces, lights, light_count, count,
                                     accumulated);
     spoil_accumulated(accumulated);
 }
-static void wrong_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf *material,
-                                           const lmp_kernel_surfaces *surfaces,
-                                           const lmp_packed_light *lights, size_t light_count,
+static void wrong_shade_preintegrated_brdf(const lmpi_kernel_preintegrated_brdf *material,
+                                           const lmpi_kernel_surfaces *surfaces,
+                                           const lmpi_packed_light *lights, size_t light_count,
                                            lmp_rgb ambient, size_t count, float *const rgb[3]) {
-    honest.shade_preintegrated_brdf(material, surfaces, lights, light_count, ambient, count, rgb);
-    spoil_accumulated(&(lmp_kernel_accumulated) { .diffuse = { rgb[0], rgb[1], rgb[2] } });
+    honest.shade.preintegrated_brdf(material, surfaces, lights, light_count, ambient, count, rgb);
+    spoil_accumulated(&(lmpi_kernel_accumulated) { .diffuse = { rgb[0], rgb[1], rgb[2] } });
 }
-static void long_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf *material,
-                                          const lmp_kernel_surfaces *surfaces,
-                                          const lmp_packed_light *lights, size_t light_count,
+static void long_shade_preintegrated_brdf(const lmpi_kernel_preintegrated_brdf *material,
+                                          const lmpi_kernel_surfaces *surfaces,
+                                          const lmpi_packed_light *lights, size_t light_count,
                                           lmp_rgb ambient, size_t count, float *const rgb[3]) {
-    honest.shade_preintegrated_brdf(material, surfaces, lights, light_count, ambient, count, rgb);
+    honest.shade.preintegrated_brdf(material, surfaces, lights, light_count, ambient, count, rgb);
     rgb[2][-1] = 0;
 }
 
-static const lmp_kernels wrong = { .eval = wrong_eval,
-                                   .dot = wrong_dot,
-                                   .rotate = wrong_rotate,
-                                   .zonal = wrong_zonal,
-                                   .project = wrong_project,
-                                   .accumulate = wrong_accumulate,
-                                   .accumulate_more = wrong_accumulate_more,
-                                   .add = wrong_add,
-                                   .cone = wrong_cone,
-                                   .gradient = wrong_gradient,
-                                   .fading_gradient = wrong_fading_gradient,
-                                   .interpolate = wrong_interpolate,
-                                   .refine = wrong_refine,
-                                   .lobe = wrong_lobe,
-                                   .eval_gradient = wrong_eval_gradient,
-                                   .reconstruct = wrong_reconstruct,
-                                   .image = wrong_image,
-                                   .shade_zonal = wrong_shade_zonal,
-                                   .shade_field = wrong_shade_field,
-                                   .shade_preintegrated_lobe = wrong_shade_preintegrated_lobe,
-                                   .shade_preintegrated_brdf = wrong_shade_preintegrated_brdf };
+static const lmpi_kernels wrong = { .sh.eval = wrong_eval,
+                                    .sh.dot = wrong_dot,
+                                    .sh.rotate = wrong_rotate,
+                                    .light.zonal = wrong_zonal,
+                                    .light.project = wrong_project,
+                                    .light.accumulate = wrong_accumulate,
+                                    .light.accumulate_more = wrong_accumulate_more,
+                                    .light.add = wrong_add,
+                                    .light.cone = wrong_cone,
+                                    .light.gradient = wrong_gradient,
+                                    .light.fading_gradient = wrong_fading_gradient,
+                                    .field.interpolate = wrong_interpolate,
+                                    .field.refine = wrong_refine,
+                                    .lobe.response = wrong_lobe,
+                                    .sh.eval_gradient = wrong_eval_gradient,
+                                    .sh.reconstruct = wrong_reconstruct,
+                                    .sh.image = wrong_image,
+                                    .shade.zonal = wrong_shade_zonal,
+                                    .shade.field = wrong_shade_field,
+                                    .shade.preintegrated_lobe = wrong_shade_preintegrated_lobe,
+                                    .shade.preintegrated_brdf = wrong_shade_preintegrated_brdf };
 
-/* In the first, a middle and the last lane and value; the checksums, too. */
+/* The error is put into the first, a middle and the last lane and value; the checksums must notice
+ * it, too. */
 static void every_wrong_kernel_fails_the_checks(void **test) {
     (void)test;
-    lmp_kernels scalar;
-    const lmp_kernels longer = { .project = long_project,
-                                 .shade_preintegrated_brdf = long_shade_preintegrated_brdf };
-    lmp_kernels_init(&honest, LMP_CPU_ALL);
-    lmp_kernels_init(&scalar, LMP_CPU_SCALAR);
+    lmpi_kernels scalar;
+    const lmpi_kernels longer = { .light.project = long_project,
+                                  .shade.preintegrated_brdf = long_shade_preintegrated_brdf };
+    lmpi_kernels_init(&honest, LMP_CPU_ALL);
+    lmpi_kernels_init(&scalar, LMP_CPU_SCALAR);
     inputs *in = inputs_create(1), *same = inputs_create(2020);
     for (int which = 0; which < KINDS; which++) {
         truths t = { &scalar, (kind)which, 6, { { NULL } } };

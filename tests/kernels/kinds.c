@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The kernels of lights that are no spheres, and of sums that are added to others, against double
+/* The kernels of lights other than spheres, and of sums added to the output, against double
  * precision. */
 #include "tests/kernels/run.h"
 
@@ -10,13 +10,13 @@ static void widen(float (*from)[COUNT + 16], int i, double to[3]) {
         to[k] = (double)from[k][i];
 }
 
-/* Of the largest value: that of the basis, and what rounding does to cos a near a sphere's surface
- * (surface_bound). */
+/* Returns a bound relative to the largest value: the rounding of the basis, and that of cos a near
+ * a sphere's surface (surface_bound). */
 static double bound_of(int bands, double alpha2) {
     return 1e-6 * (1 + bands) + fmin(1.2e-7 / sqrt(fmax(alpha2, 1e-30)), 3e-4);
 }
 
-/* One point under lights of which every other one is a Dirac. */
+/* Compares one point under lights of which every other one is a Dirac. */
 static double expect_diracs(int bands, inputs *in, int i, double *one, double *sh) {
     const size_t n = LMP_SH_COUNT(bands);
     double alpha2 = 1;
@@ -47,8 +47,8 @@ static double expect_diracs(int bands, inputs *in, int i, double *one, double *s
 
 static void sums_of_point_lights_match_double_precision(void **test) {
     (void)test;
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
     double *one = malloc(128 * 128 * sizeof *one), *sh = malloc(3 * 128 * 128 * sizeof *sh);
     assert_true(one && sh);
@@ -69,11 +69,11 @@ static void sums_of_point_lights_match_double_precision(void **test) {
     free(in);
 }
 
-/* The sum is that of accumulate, to the bit. */
+/* The sum added is that of accumulate, to the bit. */
 static void what_adds_adds_once(void **test) {
     (void)test;
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
     for (int bands = 1; bands <= 128; bands += bands < 20 ? 1 : 54) {
         const size_t values = 3 * LMP_SH_COUNT(bands);
@@ -96,10 +96,10 @@ static void what_adds_adds_once(void **test) {
 
 static void cones_match_double_precision(void **test) {
     (void)test;
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
-    const lmp_packed_light cone = cone_of(in);
+    const lmpi_packed_light cone = cone_of(in);
     const double axis[3] = { (double)cone.axis.x, (double)cone.axis.y, (double)cone.axis.z };
     float *actual = results(&best, CONE, 1, in, COUNT, 0);
     for (int i = 0; i < COUNT; i++) {

@@ -3,8 +3,8 @@
 #include "tests/kernels/run.h"
 #include "tests/kernels/shaded.h"
 
-/* Of an element's largest value: two to eight times what was seen with nine seeds. alpha2 = cos² a.
- */
+/* Returns a bound relative to an element's largest value: two to eight times what nine seeds
+ * showed. alpha2 = cos² a. */
 static double bound_of(kind which, int bands, double alpha2) {
     switch (which) {
     case EVAL:
@@ -33,8 +33,8 @@ static void check_element(int i, int bands, kind which, size_t values, const dou
 
 static void basis_zonal_and_project_match_double_precision(void **test) {
     (void)test;
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
     double *expected = malloc(128 * 128 * sizeof *expected);
     assert_non_null(expected);
@@ -62,7 +62,7 @@ static void basis_zonal_and_project_match_double_precision(void **test) {
             }
             oracle_sphere(bands, center, radius, point, expected, NULL);
             check_element(i, bands, PROJECT, n, expected, project + (size_t)i * n, alpha2);
-            /* The zonal coefficients are those along z. */
+            /* Zonal coefficients are those of a sphere along z. */
             oracle_sphere(bands, (double[]) { 0, 0, (double)in->distance[i] }, radius,
                           (double[]) { 0, 0, 0 }, expected, NULL);
             for (int l = 1; l < bands; l++)
@@ -77,15 +77,15 @@ static void basis_zonal_and_project_match_double_precision(void **test) {
     free(in);
 }
 
-/* Of points and lights that the oracle sees. */
+/* The expected sums at points whose lights the oracle sees. */
 typedef struct sums_expected {
     double *sh, *axis_sh; /* red, green, blue; then by x, by y, by z */
     double response[3];
-    double alpha2; /* the least cos² a */
-    bool slopes;   /* they are finite, none is held back (LMP_COS_MIN), and so they are here */
+    double alpha2; /* the smallest cos² a */
+    bool slopes;   /* derivatives are compared: finite, none clamped (LMP_COS_MIN) */
 } sums_expected;
 
-/* cos² a of a light from a point; 1 where there is nothing to see. */
+/* Returns cos² a of a light seen from a point; 1 where nothing is seen. */
 static double seen_alpha2(inputs *in, int light, int i, double center[3], double point[3]) {
     const double r = (double)in->radius[light];
     double v2 = 0;
@@ -96,7 +96,8 @@ static double seen_alpha2(inputs *in, int light, int i, double center[3], double
     return r == 0 && v2 == 0 ? 1 : fabs(v2 - r * r) / fmax(v2, r * r);
 }
 
-/* The oracle's derivatives cost 2 bands times its values: past 74 bands they are had of few. */
+/* The oracle's derivatives cost 2 bands times as much as its values: past 74 bands they are
+ * computed for few points. */
 static void expect_sums(int bands, inputs *in, int i, const double *lambda, double *one,
                         sums_expected *e) {
     const size_t n = LMP_SH_COUNT(bands);
@@ -109,12 +110,12 @@ static void expect_sums(int bands, inputs *in, int i, const double *lambda, doub
     for (int light = 0; light < LIGHTS; light++)
         e->alpha2 = fmin(e->alpha2, seen_alpha2(in, light, i, center, point));
     e->slopes = e->alpha2 >= (double)(LMP_COS_MIN * LMP_COS_MIN) && (bands <= 74 || i % 8 == 0) &&
-                i != 4; /* the center of a light */
+                i != 4; /* except at the center of a light */
     for (int light = 0; light < LIGHTS; light++) {
         const double r = (double)in->radius[light];
         seen_alpha2(in, light, i, center, point);
         if (r == 0 && memcmp(center, point, sizeof point) == 0)
-            continue; /* nothing to see */
+            continue; /* nothing is seen */
         oracle_sphere(bands, center, r, point, one, e->slopes ? one + n : NULL);
         const double lit = lobe_of(bands, lambda, one, e->axis_sh);
         for (int c = 0; c < 3; c++) {
@@ -127,11 +128,11 @@ static void expect_sums(int bands, inputs *in, int i, const double *lambda, doub
     }
 }
 
-/* Point i < LIGHTS sees light i in the way of special[i]: touching, from inside, at the center. */
+/* Point i < LIGHTS sees light i as special[i] says: touching, from inside, at the center. */
 static void sums_gradients_and_lobes_match_double_precision(void **test) {
     (void)test;
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
     sums_expected e = { malloc(12 * 128 * 128 * sizeof *e.sh),
                         malloc(128 * 128 * sizeof *e.axis_sh),
@@ -171,8 +172,8 @@ static void sums_gradients_and_lobes_match_double_precision(void **test) {
 
 static void rotation_and_dot_match_double_precision(void **test) {
     (void)test;
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
     for (int bands = 1; bands <= 128; bands += bands < 20 ? 1 : bands == 20 ? 13 : 95) {
         const size_t n = LMP_SH_COUNT(bands);
@@ -205,8 +206,8 @@ static void rotation_and_dot_match_double_precision(void **test) {
 
 static void gradients_of_the_basis_match_double_precision(void **test) {
     (void)test;
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
     double *expected = malloc(4 * 128 * 128 * sizeof *expected);
     assert_non_null(expected);
@@ -225,7 +226,8 @@ static void gradients_of_the_basis_match_double_precision(void **test) {
     free(in);
 }
 
-/* Σ_l factor_l lambda_l Σ_m f_lm Y_lm of three functions, and Σ of the magnitudes. */
+/* Computes Σ_l factor_l lambda_l Σ_m f_lm Y_lm of three functions, and the sum of the magnitudes.
+ */
 static void expect_function(kind which, int bands, const inputs *in, int i, const double *basis,
                             double sums[3], double sizes[3]) {
     float factors[LMP_BANDS_MAX];
@@ -249,8 +251,8 @@ static void expect_function(kind which, int bands, const inputs *in, int i, cons
 
 static void functions_of_coefficients_match_double_precision(void **test) {
     (void)test;
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
     double *basis = malloc(128 * 128 * sizeof *basis), worst = 0;
     assert_non_null(basis);
@@ -277,8 +279,8 @@ static void functions_of_coefficients_match_double_precision(void **test) {
 
 static void images_match_double_precision(void **test) {
     (void)test;
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
     double *basis = malloc(128 * 128 * sizeof *basis), *sums = malloc(3 * 128 * 128 * sizeof *sums);
     assert_true(basis && sums);
@@ -286,7 +288,7 @@ static void images_match_double_precision(void **test) {
         const size_t n = LMP_SH_COUNT(bands);
         float *actual = results(&best, IMAGE, bands, in, COUNT, 0);
         memset(sums, 0, 3 * n * sizeof *sums);
-        for (int i = 0; i < COUNT; i++) { /* image i has all texels of those before */
+        for (int i = 0; i < COUNT; i++) { /* image i has all texels of the images before it */
             double axis[3];
             widen(VECTOR(in->axis), i, axis);
             oracle_sh_eval(bands, axis, basis);
@@ -310,8 +312,8 @@ static void shading_matches_double_precision(void **test) {
                                                                       expect_preintegrated_lobe,
                                                                       expect_zonal,
                                                                       expect_preintegrated_lobe };
-    lmp_kernels best;
-    lmp_kernels_init(&best, LMP_CPU_ALL);
+    lmpi_kernels best;
+    lmpi_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
     for (int which = SHADE_ZONAL; which <= SHADE_PREINTEGRATED_LOBE_ALL; which++) {
         check_errors errors = { 0 };

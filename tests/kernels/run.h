@@ -71,7 +71,7 @@ static const char *const kind_names[] = { "eval",
                                           "add",
                                           "cone" };
 
-/* Of Phong's, that a kernel of shading takes. */
+/* Returns how many Phong lobes a kernel of shading takes. */
 static int lobes_of(kind which) {
     switch (which) {
     case SHADE_ZONAL_FEW:
@@ -80,7 +80,7 @@ static int lobes_of(kind which) {
     case SHADE_ZONAL_ALL:
     case SHADE_PREINTEGRATED_LOBE_ALL:
     case SHADE_FIELD:
-        return LMP_KERNEL_LOBES_MAX;
+        return LMPI_KERNEL_LOBES_MAX;
     default:
         return 1;
     }
@@ -89,7 +89,7 @@ static int lobes_of(kind which) {
 static bool is_zonal(kind which) {
     return which == SHADE_ZONAL || which == SHADE_ZONAL_FEW || which == SHADE_ZONAL_ALL;
 }
-enum { PLANES = 3 + 3 * LMP_KERNEL_LOBES_MAX };
+enum { PLANES = 3 + 3 * LMPI_KERNEL_LOBES_MAX };
 
 static size_t values_of(kind which, int bands) {
     const size_t n = LMP_SH_COUNT(bands);
@@ -130,7 +130,7 @@ static size_t values_of(kind which, int bands) {
     }
 }
 
-/* Lobes and coefficients that the kernels of those take. */
+/* Makes the lobes and coefficients that kernels take. */
 static void make_lambda(int bands, float *lambda) {
     for (int l = 0; l < bands; l++)
         lambda[l] = 1 / (1 + 0.25f * (float)l);
@@ -145,58 +145,58 @@ static float *make_matrices(int bands) {
     return matrices;
 }
 
-static void run_vectors(const lmp_kernels *k, kind which, int bands, size_t count, int planar,
-                        const lmp_kernel_out *out) {
+static void run_vectors(const lmpi_kernels *k, kind which, int bands, size_t count, int planar,
+                        const lmpi_kernel_out *out) {
     const size_t values = LMP_SH_COUNT(bands), stride = (planar ? count : values) + 3;
     float *a = make_vectors(values, count, planar, stride, 0);
-    const lmp_kernel_in from_a = { a, stride, planar };
+    const lmpi_kernel_in from_a = { a, stride, planar };
     if (which == DOT) {
         float *b = make_vectors(values, count, planar, stride, 1000);
-        const lmp_kernel_in from_b = { b, stride, planar };
-        k->dot(values, &from_a, &from_b, count, out->at);
+        const lmpi_kernel_in from_b = { b, stride, planar };
+        k->sh.dot(values, &from_a, &from_b, count, out->at);
         free(b);
     } else {
         float *matrices = make_matrices(bands);
-        k->rotate(bands, matrices, &from_a, count, out);
+        k->sh.rotate(bands, matrices, &from_a, count, out);
         free(matrices);
     }
     free(a);
 }
 
-/* Every other factor is 0, as of a diffuse lobe, unless they are Phong's. */
-static void run_reconstruct(const lmp_kernels *k, kind which, int bands, const inputs *in,
-                            size_t count, const lmp_kernel_out *out) {
+/* Runs with every other factor 0, as for a diffuse lobe, unless the lobes are Phong lobes. */
+static void run_reconstruct(const lmpi_kernels *k, kind which, int bands, const inputs *in,
+                            size_t count, const lmpi_kernel_out *out) {
     const size_t values = LMP_SH_COUNT(bands);
-    const lmp_kernel_vec3 axis = { in->axis[0], in->axis[1], in->axis[2] };
+    const lmpi_kernel_vec3 axis = { in->axis[0], in->axis[1], in->axis[2] };
     float *sh = make_vectors(values, 3, 0, values, 0), lambda[LMP_BANDS_MAX];
     const float *const planes[3] = { sh, sh + values, sh + 2 * values };
     make_lambda(bands, lambda);
     for (int l = 3; which == RECONSTRUCT && l < bands; l += 2)
         lambda[l] = 0;
-    k->reconstruct(bands, lambda, which == RECONSTRUCT ? NULL : in->exponent, planes, &axis, count,
-                   out);
+    k->sh.reconstruct(bands, lambda, which == RECONSTRUCT ? NULL : in->exponent, planes, &axis,
+                      count, out);
     free(sh);
 }
 
-/* Element e is an image of e + 1 texels, of three channels. */
-static void run_image(const lmp_kernels *k, int bands, const inputs *in, size_t count,
-                      const lmp_kernel_out *out) {
+/* Runs so that element e is an image of e + 1 texels, of three channels. */
+static void run_image(const lmpi_kernels *k, int bands, const inputs *in, size_t count,
+                      const lmpi_kernel_out *out) {
     const size_t n = LMP_SH_COUNT(bands);
-    lmp_kernel_texels texels = { .direction = { in->axis[0], in->axis[1], in->axis[2] },
-                                 .channels = 3 };
+    lmpi_kernel_texels texels = { .direction = { in->axis[0], in->axis[1], in->axis[2] },
+                                  .channels = 3 };
     for (size_t e = 0; e < count; e++) {
         _Alignas(64) float value[3][COUNT + 16] = { { 0 } };
-        lmp_kernel_texel_sums sums;
+        lmpi_kernel_texel_sums sums;
         for (size_t c = 0; c < 3; c++) {
             memcpy(value[c], in->rgb[c], (e + 1) * sizeof(float));
             texels.value[c] = value[c];
         }
         for (int m = 0; m < bands; m++) {
-            const int i = m % LMP_KERNEL_ORDERS, left = bands - m;
+            const int i = m % LMPI_KERNEL_ORDERS, left = bands - m;
             if (i == 0) {
                 memset(&sums, 0, sizeof sums);
-                k->image(bands, m, left < LMP_KERNEL_ORDERS ? left : LMP_KERNEL_ORDERS, &texels,
-                         e + 1, &sums);
+                k->sh.image(bands, m, left < LMPI_KERNEL_ORDERS ? left : LMPI_KERNEL_ORDERS,
+                            &texels, e + 1, &sums);
             }
             for (size_t c = 0; c < 3; c++)
                 for (int l = m; l < bands; l++) {
@@ -211,58 +211,58 @@ static void run_image(const lmp_kernels *k, int bands, const inputs *in, size_t 
     }
 }
 
-/* The kernels of shading add to planes, up to a whole number of lanes: what is beside them is
- * guarded here. */
-enum { PLANE = (COUNT / LMP_KERNEL_LANES_MAX + 1) * LMP_KERNEL_LANES_MAX + 2 * GUARD };
+/* The kernels of shading add to planes, up to a whole number of lanes, so this guards what is
+ * beside the planes. */
+enum { PLANE = (COUNT / LMPI_KERNEL_LANES_MAX + 1) * LMPI_KERNEL_LANES_MAX + 2 * GUARD };
 
-static void call_shading(const lmp_kernels *k, kind which, const shading *s, size_t count,
+static void call_shading(const lmpi_kernels *k, kind which, const shading *s, size_t count,
                          float *const planes[PLANES]) {
     const inputs *in = s->in;
-    lmp_kernel_accumulated sums = { .diffuse = { planes[0], planes[1], planes[2] } };
-    lmp_kernel_surfaces surfaces = { { in->point[0], in->point[1], in->point[2] },
-                                     { in->normal[0], in->normal[1], in->normal[2] },
-                                     { in->view[0], in->view[1], in->view[2] },
-                                     .lobe_count = s->lobes };
-    lmp_kernel_lobe_positions positions[LMP_KERNEL_LOBES_MAX];
+    lmpi_kernel_accumulated sums = { .diffuse = { planes[0], planes[1], planes[2] } };
+    lmpi_kernel_surfaces surfaces = { { in->point[0], in->point[1], in->point[2] },
+                                      { in->normal[0], in->normal[1], in->normal[2] },
+                                      { in->view[0], in->view[1], in->view[2] },
+                                      .lobe_count = s->lobes };
+    lmpi_kernel_lobe_positions positions[LMPI_KERNEL_LOBES_MAX];
     for (int lobe = 0; lobe < s->lobes; lobe++) {
         for (int c = 0; c < 3; c++)
             sums.specular[lobe][c] = planes[3 + 3 * lobe + c];
         surfaces.lobe[lobe] =
-            (lmp_kernel_lobe) { { s->axis[lobe][0], s->axis[lobe][1], s->axis[lobe][2] },
-                                s->exponent[lobe] };
+            (lmpi_kernel_lobe) { { s->axis[lobe][0], s->axis[lobe][1], s->axis[lobe][2] },
+                                 s->exponent[lobe] };
         positions[lobe] =
-            (lmp_kernel_lobe_positions) { s->first[lobe], s->columns[lobe], s->weight[lobe],
-                                          s->density[lobe], s->angle[lobe] };
+            (lmpi_kernel_lobe_positions) { s->first[lobe], s->columns[lobe], s->weight[lobe],
+                                           s->density[lobe], s->angle[lobe] };
     }
-    const lmp_kernel_preintegrated_lobe table = { s->pairs };
+    const lmpi_kernel_preintegrated_lobe table = { s->pairs };
     if (which == SHADE_FIELD)
-        k->shade_field(s->bands, s->window, s->diffuse, &surfaces, &s->sh, count, &sums);
+        k->shade.field(s->bands, s->window, s->diffuse, &surfaces, &s->sh, count, &sums);
     else if (is_zonal(which))
-        k->shade_zonal(s->bands, s->window, &surfaces, s->lights, SHADE_LIGHTS, count, &sums);
+        k->shade.zonal(s->bands, s->window, &surfaces, s->lights, SHADE_LIGHTS, count, &sums);
     else if (which != SHADE_PREINTEGRATED_BRDF)
-        k->shade_preintegrated_lobe(&table, positions, &surfaces, s->lights, SHADE_LIGHTS, count,
+        k->shade.preintegrated_lobe(&table, positions, &surfaces, s->lights, SHADE_LIGHTS, count,
                                     &sums);
     else
-        k->shade_preintegrated_brdf(&s->brdf, &surfaces, s->lights, SHADE_LIGHTS, s->ambient, count,
+        k->shade.preintegrated_brdf(&s->brdf, &surfaces, s->lights, SHADE_LIGHTS, s->ambient, count,
                                     sums.diffuse);
 }
 
-static void run_shading(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
-                        const lmp_kernel_out *out) {
+static void run_shading(const lmpi_kernels *k, kind which, int bands, const inputs *in,
+                        size_t count, const lmpi_kernel_out *out) {
     _Alignas(64) float memory[PLANES][PLANE];
     float *planes[PLANES];
     const size_t whole =
-        (count + LMP_KERNEL_LANES_MAX - 1) / LMP_KERNEL_LANES_MAX * LMP_KERNEL_LANES_MAX;
+        (count + LMPI_KERNEL_LANES_MAX - 1) / LMPI_KERNEL_LANES_MAX * LMPI_KERNEL_LANES_MAX;
     const size_t values = values_of(which, bands);
     const bool field = which == SHADE_FIELD;
-    const int most = field ? LMP_KERNEL_FIELD_BANDS_MAX : LMP_BANDS_MAX;
+    const int most = field ? LMPI_KERNEL_FIELD_BANDS_MAX : LMP_BANDS_MAX;
     shading *s = shading_create(in, bands < most ? bands : most, lobes_of(which));
     float *sh = make_vectors(field ? 3 * LMP_SH_COUNT(s->bands) : 0, COUNT + 16, 1, COUNT + 16, 0);
-    s->sh = (lmp_kernel_in) { sh, COUNT + 16, 1 };
+    s->sh = (lmpi_kernel_in) { sh, COUNT + 16, 1 };
     for (size_t v = 0; v < PLANES; v++) {
         planes[v] = memory[v] + GUARD;
         for (size_t i = 0; i < PLANE; i++)
-            memory[v][i] = (float)v; /* what the kernel adds to */
+            memory[v][i] = (float)v; /* the value that the kernel adds to */
     }
     call_shading(k, which, s, count, planes);
     shading_free(s);
@@ -273,54 +273,54 @@ static void run_shading(const lmp_kernels *k, kind which, int bands, const input
         for (size_t i = 0; i < PLANE; i++)
             if ((v >= values || i < GUARD || i >= GUARD + whole) &&
                 (memory[v][i] < (float)v || memory[v][i] > (float)v))
-                out->at[-1] = 0; /* seen as memory that is not the kernel's */
+                out->at[-1] = 0; /* memory that the kernel must not write */
     }
 }
 
-/* Sums of lights, whose gradients follow them: further on in a row, or in the planes after. */
-static void run_sums(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
-                     const lmp_kernel_out *out) {
-    const lmp_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
-    const lmp_kernel_lights lights = lights_of(in);
-    lmp_kernel_out gradient = *out;
+/* Runs sums of lights; gradients follow them, further on in a row or in the planes after. */
+static void run_sums(const lmpi_kernels *k, kind which, int bands, const inputs *in, size_t count,
+                     const lmpi_kernel_out *out) {
+    const lmpi_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
+    const lmpi_kernel_lights lights = lights_of(in);
+    lmpi_kernel_out gradient = *out;
     gradient.at += 3 * LMP_SH_COUNT(bands) * (out->planar ? out->stride : 1);
     if (which == ACCUMULATE_MORE)
         run_more(k, bands, in, count, out);
     else if (which == ACCUMULATE_DIRACS)
         run_diracs(k, bands, in, count, out);
     else if (which == ACCUMULATE)
-        k->accumulate(NULL, bands, &lights, &point, count, out);
+        k->light.accumulate(NULL, bands, &lights, &point, count, out);
     else if (which == GRADIENT)
-        k->gradient(NULL, bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
+        k->light.gradient(NULL, bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
     else
-        k->fading_gradient(NULL, bands, &lights, &point, LMP_COS_MIN,
-                           (lmp_kernel_fade) { 0.5f, 0.2f }, count, out, &gradient);
+        k->light.fading_gradient(NULL, bands, &lights, &point, LMP_COS_MIN,
+                                 (lmpi_kernel_fade) { 0.5f, 0.2f }, count, out, &gradient);
 }
 
-static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
-                int planar, const lmp_kernel_out *out) {
-    const lmp_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
-    const lmp_kernel_vec3 center = { in->center[0], in->center[1], in->center[2] };
-    const lmp_kernel_vec3 axis = { in->axis[0], in->axis[1], in->axis[2] };
-    const lmp_kernel_pairs pairs = { center, point, in->radius };
-    const lmp_kernel_lights lights = lights_of(in);
-    lmp_kernel_out gradient = *out;
+static void run(const lmpi_kernels *k, kind which, int bands, const inputs *in, size_t count,
+                int planar, const lmpi_kernel_out *out) {
+    const lmpi_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
+    const lmpi_kernel_vec3 center = { in->center[0], in->center[1], in->center[2] };
+    const lmpi_kernel_vec3 axis = { in->axis[0], in->axis[1], in->axis[2] };
+    const lmpi_kernel_pairs pairs = { center, point, in->radius };
+    const lmpi_kernel_lights lights = lights_of(in);
+    lmpi_kernel_out gradient = *out;
     gradient.at += LMP_SH_COUNT(bands) * (planar ? out->stride : 1);
     float lambda[LMP_BANDS_MAX];
     make_lambda(bands, lambda);
     switch (which) {
     case EVAL:
-        k->eval(bands, &axis, count, out);
+        k->sh.eval(bands, &axis, count, out);
         break;
     case DOT:
     case ROTATE:
         run_vectors(k, which, bands, count, planar, out);
         break;
     case ZONAL:
-        k->zonal(bands, in->radius, in->distance, count, out);
+        k->light.zonal(bands, in->radius, in->distance, count, out);
         break;
     case PROJECT:
-        k->project(bands, &pairs, count, out);
+        k->light.project(bands, &pairs, count, out);
         break;
     case ACCUMULATE:
     case ACCUMULATE_MORE:
@@ -336,10 +336,10 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
         run_cone(k, in, count, out);
         break;
     case LOBE:
-        k->lobe(bands, lambda, &axis, &lights, &point, count, out);
+        k->lobe.response(bands, lambda, &axis, &lights, &point, count, out);
         break;
     case EVAL_GRADIENT:
-        k->eval_gradient(bands, &axis, count, out, &gradient);
+        k->sh.eval_gradient(bands, &axis, count, out, &gradient);
         break;
     case RECONSTRUCT:
     case RECONSTRUCT_PHONG:
@@ -358,7 +358,7 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     }
 }
 
-/* A NaN that no kernel makes. */
+/* A NaN that no kernel produces. */
 static const uint32_t mark = 0x7fc0beef;
 
 static int is_mark(float value) {
@@ -369,7 +369,7 @@ static int is_mark(float value) {
 
 /* Runs a kernel into guarded memory and returns its values as tight rows, or NULL if it wrote
  * outside the output or left a value unwritten. */
-static float *results(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
+static float *results(const lmpi_kernels *k, kind which, int bands, const inputs *in, size_t count,
                       int planar) {
     const size_t values = values_of(which, bands);
     const size_t pad = which == DOT ? 0 : 5;
@@ -381,7 +381,7 @@ static float *results(const lmp_kernels *k, kind which, int bands, const inputs 
     assert_non_null(tight);
     for (size_t i = 0; i < size; i++)
         memcpy(memory + i, &mark, sizeof mark);
-    const lmp_kernel_out out = { memory + GUARD, stride, planar };
+    const lmpi_kernel_out out = { memory + GUARD, stride, planar };
     run(k, which, bands, in, count, planar, &out);
     int clean = 1;
     for (size_t i = 0; i < GUARD; i++)
@@ -402,7 +402,7 @@ static float *results(const lmp_kernels *k, kind which, int bands, const inputs 
     return tight;
 }
 
-/* LAMPION_SEED draws others. */
+/* Returns the seed, which LAMPION_SEED changes. */
 static uint64_t drawn_seed(void) {
     const uint64_t seed = (uint64_t)(check_random() * 1e9);
     printf("inputs of seed %llu\n", (unsigned long long)seed);

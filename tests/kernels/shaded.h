@@ -13,11 +13,10 @@ static void widen(const float *const from[3], int i, double to[3]) {
         to[k] = (double)from[k][i];
 }
 
-/* What rounding does to cos a near the surface, alpha2 = cos² a = (d² - r²) / d². With u = 6e-8
+/* Bounds the rounding of cos a near the surface, alpha2 = cos² a = (d² - r²) / d². With u = 6e-8
  * half a unit, d² is off by up to 3u d² (a product and two sums) and r² by u r²; their difference
  * is then exact. So cos² a is off by 4u, and cos a by 2u / cos a; 3.8u of 4u were seen in 4e7
- * draws. The digits are lost in the squares: no form of the difference in floats brings them back.
- */
+ * draws. The digits are lost in the squares: no form of the difference in floats restores them. */
 static double surface_bound(double alpha2) {
     return fmin(1.2e-7 / sqrt(fmax(alpha2, 1e-30)), 3e-4);
 }
@@ -28,7 +27,7 @@ static double dot3(const double a[3], const double b[3]) {
 
 /* A surface and what it sees. */
 typedef struct seen {
-    double point[3], normal[3], view[3], axis[LMP_KERNEL_LOBES_MAX][3];
+    double point[3], normal[3], view[3], axis[LMPI_KERNEL_LOBES_MAX][3];
 } seen;
 
 static void see(const shading *s, int i, seen *surface) {
@@ -40,20 +39,20 @@ static void see(const shading *s, int i, seen *surface) {
         widen(VECTOR(s->axis[k]), i, surface->axis[k]);
 }
 
-/* A light seen from a surface as lmp_light_cap puts it: a cap of at most a hemisphere, and inside a
- * sphere ambient light less the cap. */
+/* A light seen from a surface, as lmp_light_find_cap returns it: a cap of at most a hemisphere, and
+ * inside a sphere ambient light less the cap. */
 typedef struct seen_light {
     double center[3], point[3], radius; /* for oracle_sphere */
     double axis[3], t;                  /* 1 - cos a */
-    double solid_angle;                 /* of the cap; of a Dirac, what makes it as strong */
-    double rounded;                     /* how large what is rounded is: of a cone, all of it */
+    double solid_angle;                 /* of the cap; for a Dirac, what makes it as strong */
+    double rounded;                     /* size of what is rounded: for a cone, all of it */
     double alpha2;                      /* cos² a */
     bool inside, nothing, dirac;
 } seen_light;
 
-/* What of a Dirac comes in a direction. */
-static double falloff_of(const lmp_packed_light *l, const double axis[3]) {
-    if (l->form != LMP_FORM_CONE)
+/* Returns the fraction of a Dirac's light that leaves in a direction. */
+static double falloff_of(const lmpi_packed_light *l, const double axis[3]) {
+    if (l->form != LMPI_FORM_CONE)
         return 1;
     const double cosine =
         -(axis[0] * (double)l->axis.x + axis[1] * (double)l->axis.y + axis[2] * (double)l->axis.z);
@@ -61,7 +60,7 @@ static double falloff_of(const lmp_packed_light *l, const double axis[3]) {
 }
 
 static void see_light(const shading *s, const seen *surface, int light, seen_light *to) {
-    const lmp_packed_light *l = &s->lights[light];
+    const lmpi_packed_light *l = &s->lights[light];
     const double center[3] = { (double)l->at.x, (double)l->at.y, (double)l->at.z };
     double v[3];
     for (int k = 0; k < 3; k++) {
@@ -70,26 +69,26 @@ static void see_light(const shading *s, const seen *surface, int light, seen_lig
         v[k] = center[k] - to->point[k];
     }
     const double size = (double)l->size, d2 = dot3(v, v), d = sqrt(d2);
-    const bool cap = l->form == LMP_FORM_CAP;
-    to->dirac = l->form == LMP_FORM_DIRAC || l->form == LMP_FORM_CONE;
+    const bool cap = l->form == LMPI_FORM_CAP;
+    to->dirac = l->form == LMPI_FORM_DIRAC || l->form == LMPI_FORM_CONE;
     const double r = to->dirac ? 0 : cap ? sqrt(size * (2 - size) * d2) : size;
     to->radius = r;
     to->inside = d < r;
     to->nothing = d2 == 0 && r == 0 && !to->dirac;
     const double sine2 = d2 == 0 && r == 0 ? 0 : to->inside ? d2 / (r * r) : r * r / d2;
-    to->alpha2 = cap ? 1 : 1 - sine2; /* whose cosine is given */
+    to->alpha2 = cap ? 1 : 1 - sine2; /* given by its cosine */
     to->t = cap ? size : sine2 / (1 + sqrt(1 - sine2));
     for (int k = 0; k < 3; k++)
         to->axis[k] = d2 > 0 ? (to->inside ? -v[k] : v[k]) / d : k == 2;
-    const double least = (double)LMP_DIRAC_DISTANCE_MIN;
+    const double least = (double)LMPI_DIRAC_DISTANCE_MIN;
     const double strength = l->fixed ? 1 : 1 / fmax(d2, least * least);
     to->solid_angle = to->dirac ? strength * falloff_of(l, to->axis) : 2 * ORACLE_PI * to->t;
     to->rounded = to->dirac ? fmax(strength, 1) : 1;
 }
 
-/* What is expected of an element, and how far rounding may take it. */
+/* The expected value of an element, and how far rounding may move it. */
 typedef struct shaded {
-    double values[3 + 3 * LMP_KERNEL_LOBES_MAX], bound;
+    double values[3 + 3 * LMPI_KERNEL_LOBES_MAX], bound;
 } shaded;
 
 static void shaded_add(shaded *sum, int first, lmp_rgb rgb, const double response[3]) {
@@ -98,7 +97,7 @@ static void shaded_add(shaded *sum, int first, lmp_rgb rgb, const double respons
     sum->values[first + 2] += (double)rgb.b * response[2];
 }
 
-/* The coefficients of a light of color 1. */
+/* Computes the coefficients of a light of color 1. */
 static void light_sh(int bands, const seen_light *one, double *sh) {
     if (!one->dirac) {
         oracle_sphere(bands, one->center, one->radius, one->point, sh, NULL);
@@ -109,7 +108,7 @@ static void light_sh(int bands, const seen_light *one, double *sh) {
         sh[j] *= one->solid_angle;
 }
 
-/* A lobe's response from its definition, Σ lambda_l L_lm Y_lm(axis). */
+/* Returns a lobe's response by its definition, Σ lambda_l L_lm Y_lm(axis). */
 static double lobe_of(int bands, const double *lambda, const double *sh, const double *axis) {
     double sum = 0;
     for (int l = 0; l < bands; l++)
@@ -118,7 +117,7 @@ static double lobe_of(int bands, const double *lambda, const double *sh, const d
     return sum;
 }
 
-/* lambda_l of the lobe that integrates to 1. */
+/* Computes lambda_l of the lobe of integral 1. */
 static void phong_of(int bands, double e, double *lambda) {
     for (int l = 0; l < bands; l++)
         lambda[l] = l == 0   ? 1
@@ -126,7 +125,7 @@ static void phong_of(int bands, double e, double *lambda) {
                              : lambda[l - 2] * (e - l + 2) / (e + l + 1);
 }
 
-/* The diffuse lobe, of integral 1. */
+/* Adds the response of the diffuse lobe of integral 1. */
 static void add_diffuse(const seen *surface, const seen_light *one, lmp_rgb color, shaded *to) {
     const double cosine = dot3(surface->normal, one->axis);
     double value = one->solid_angle * fmax(cosine, 0) / ORACLE_PI;
@@ -138,10 +137,10 @@ static void add_diffuse(const seen *surface, const seen_light *one, lmp_rgb colo
     to->bound += one->rounded * 1e-6 + surface_bound(one->alpha2);
 }
 
-/* Phong lobes by bands: dot products with their coefficients. */
+/* Computes the responses of Phong lobes by bands: dot products with their coefficients. */
 static void expect_zonal(const shading *s, int i, shaded *to) {
-    static double sh[128 * 128], around[LMP_KERNEL_LOBES_MAX][128 * 128];
-    static double lambda[LMP_KERNEL_LOBES_MAX][128];
+    static double sh[128 * 128], around[LMPI_KERNEL_LOBES_MAX][128 * 128];
+    static double lambda[LMPI_KERNEL_LOBES_MAX][128];
     seen surface;
     double size = 0;
     see(s, i, &surface);
@@ -166,7 +165,7 @@ static void expect_zonal(const shading *s, int i, shaded *to) {
             shaded_add(to, 3 + 3 * k, s->lights[light].color, (double[3]) { value, value, value });
         }
         to->bound += 4e-7 + (1e-9 + 0.05 * surface_bound(one.alpha2)) * size;
-        if (one.dirac) /* no band of it is damped: what shade.h says of a peak */
+        if (one.dirac) /* no band of a Dirac is damped: the peak that shade.h describes */
             to->bound += one.rounded * size / (4 * ORACLE_PI) * (3e-6 + 2e-7 * s->bands * s->bands);
     }
 }
@@ -179,12 +178,12 @@ static void spline(double x, double w[4]) {
     w[3] = x * x * x / 6;
 }
 
-/* The steepest that splines of coefficients in -1 … 1 can be, and the integers' part of the error:
- * weights in 1/32767. */
+/* The steepest slope of splines whose coefficients lie in -1 … 1, and the integers' part of the
+ * error: weights in units of 1/32767. */
 #define STEEPEST 2.0
 #define WHOLE    4e-5
 
-/* One lobe's reading: the mean over the cap. */
+/* Returns one reading of a lobe: its mean over the cap. */
 static double read_lobe(const shading *s, uint32_t first, uint32_t columns, const float position[3],
                         double cosine, double t) {
     const double weight = (double)position[0], density = (double)position[1];
@@ -201,8 +200,8 @@ static double read_lobe(const shading *s, uint32_t first, uint32_t columns, cons
     return sum * 2 / 32767 / (2 * ORACLE_PI * t + (double)position[2]);
 }
 
-/* Of ambient light less the mean, or the mean, times the cap's solid angle. */
-static void add_mean(const seen_light *one, const lmp_packed_light *light, int first,
+/* Adds the mean, or ambient light less the mean, times the cap's solid angle. */
+static void add_mean(const seen_light *one, const lmpi_packed_light *light, int first,
                      const double mean[3], const double ambient[3], shaded *to) {
     double value[3];
     for (int c = 0; c < 3; c++) {
@@ -229,7 +228,7 @@ static void expect_preintegrated_lobe(const shading *s, int i, shaded *to) {
                 read_lobe(s, s->first[k][i], s->columns[k][i], position, cosine, one.t);
             add_mean(&one, &s->lights[light], 3 + 3 * k, (double[3]) { mean, mean, mean },
                      (double[3]) { 1, 1, 1 }, to);
-            /* acos near 1 has half of the digits, where the response is flat */
+            /* acos near 1 keeps half of the digits, where the response is flat */
             const double density = (double)position[1];
             to->bound += one.rounded * (WHOLE + STEEPEST * density * surface_bound(one.alpha2) +
                                         STEEPEST * density * density * 1e-7);
@@ -237,7 +236,7 @@ static void expect_preintegrated_lobe(const shading *s, int i, shaded *to) {
     }
 }
 
-/* Where a remap puts a fraction: the slice before, and the weight of the next. */
+/* Looks up a fraction in a remap: returns the slice before, and the weight of the next. */
 static size_t lookup_remap(const float *remap, int steps, int count, double position,
                            double *second) {
     const double at = fmin(fmax(position, 0), 1) * steps;
@@ -249,7 +248,7 @@ static size_t lookup_remap(const float *remap, int steps, int count, double posi
     return first;
 }
 
-/* The whole part of a coordinate that has a neighbor before and two after. */
+/* Returns the integer part of a coordinate that has a neighbor before and two after. */
 static size_t spline_at(double at, uint32_t count, double w[4]) {
     const size_t base = (size_t)fmin(fmax(at, 1), (double)(count - 3));
     spline(fmin(fmax(at - (double)base, 0), 1), w);
@@ -258,7 +257,7 @@ static size_t spline_at(double at, uint32_t count, double w[4]) {
 
 static void add_slice(const shading *s, size_t index, double coordinate, double azimuth,
                       double weight, double rgb[3]) {
-    const lmp_kernel_slice *slice = &s->slices[index];
+    const lmpi_kernel_slice *slice = &s->slices[index];
     double down[4], across[4];
     const size_t row = spline_at(
         coordinate * (double)slice->row_density - (double)slice->row_origin, slice->rows, down);
@@ -273,7 +272,8 @@ static void add_slice(const shading *s, size_t index, double coordinate, double 
             }
 }
 
-/* The frame of the mirror direction: z along it, x in the plane of incidence; and theta_o. */
+/* Makes the frame of the mirror direction, z along it and x in the plane of incidence; returns
+ * theta_o. */
 static double mirror_frame(const seen *surface, double frame[3][3]) {
     const double *n = surface->normal, along = dot3(n, surface->view);
     double flat[3], length2 = 0;
@@ -301,7 +301,7 @@ static double mirror_frame(const seen *surface, double frame[3][3]) {
 
 static void read_brdf(const shading *s, const seen_light *one, double frame[3][3], size_t view,
                       double later, double mean[3]) {
-    const lmp_kernel_preintegrated_brdf *m = &s->brdf;
+    const lmpi_kernel_preintegrated_brdf *m = &s->brdf;
     const double x = dot3(frame[0], one->axis), y = dot3(frame[1], one->axis);
     const double z = dot3(frame[2], one->axis), a = acos(1 - one->t);
     double azimuth = atan2(y, x), larger;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* shading.h - what the kernels of shading are run on. Their tables are made of numbers that stand
- * for no material: a kernel has to read whatever a table says. */
+/* shading.h - the inputs of the kernels of shading. Their tables hold numbers of no real material:
+ * a kernel must read whatever a table says. */
 #ifndef LAMPION_SHADING_H
 #define LAMPION_SHADING_H
 
-#include "src/kernels/kernels.h"
+#include "src/kernels/dispatch.h"
 #include "tests/kernels/inputs.h"
 #include "tests/oracle/oracle.h"
 
@@ -16,51 +16,52 @@ enum { SHADE_LIGHTS = 11, CELLS = 3, VIEWS = 5, CAPS = 4, VIEW_STEPS = 16, CAP_S
 
 typedef struct shading {
     const inputs *in;
-    int bands, lobes; /* of Phong's */
-    _Alignas(64) float axis[LMP_KERNEL_LOBES_MAX][3][COUNT + 16];
-    _Alignas(64) float exponent[LMP_KERNEL_LOBES_MAX][COUNT + 16];
-    lmp_packed_light lights[SHADE_LIGHTS];
+    int bands, lobes; /* Phong lobes */
+    _Alignas(64) float axis[LMPI_KERNEL_LOBES_MAX][3][COUNT + 16];
+    _Alignas(64) float exponent[LMPI_KERNEL_LOBES_MAX][COUNT + 16];
+    lmpi_packed_light lights[SHADE_LIGHTS];
     lmp_rgb ambient;
     float window[LMP_BANDS_MAX], diffuse[LMP_BANDS_MAX];
-    lmp_kernel_in sh; /* of the light at each surface */
+    lmpi_kernel_in sh; /* the light at each surface */
 
     int16_t *pairs;
     uint32_t cell_first[CELLS], cell_columns[CELLS];
-    _Alignas(64) uint32_t first[LMP_KERNEL_LOBES_MAX][COUNT + 16];
-    _Alignas(64) uint32_t columns[LMP_KERNEL_LOBES_MAX][COUNT + 16];
-    _Alignas(64) float weight[LMP_KERNEL_LOBES_MAX][COUNT + 16];
-    _Alignas(64) float density[LMP_KERNEL_LOBES_MAX][COUNT + 16];
-    _Alignas(64) float angle[LMP_KERNEL_LOBES_MAX][COUNT + 16];
+    _Alignas(64) uint32_t first[LMPI_KERNEL_LOBES_MAX][COUNT + 16];
+    _Alignas(64) uint32_t columns[LMPI_KERNEL_LOBES_MAX][COUNT + 16];
+    _Alignas(64) float weight[LMPI_KERNEL_LOBES_MAX][COUNT + 16];
+    _Alignas(64) float density[LMPI_KERNEL_LOBES_MAX][COUNT + 16];
+    _Alignas(64) float angle[LMPI_KERNEL_LOBES_MAX][COUNT + 16];
 
-    lmp_kernel_slice slices[VIEWS * CAPS];
+    lmpi_kernel_slice slices[VIEWS * CAPS];
     float view_remap[VIEW_STEPS + 1], cap_remap[CAP_STEPS + 1];
     lmp_rgb colors[VIEWS];
     int16_t *texels;
-    lmp_kernel_preintegrated_brdf brdf;
+    lmpi_kernel_preintegrated_brdf brdf;
 } shading;
 
-/* Spheres, of which point i sees number i in the way of special[i]; a direction and a cap alike
- * from every point; and a Dirac and a cone, which point 2 sees in its way. */
+/* Makes lights: spheres, of which point i sees number i as special[i] says; a direction and a cap
+ * that are the same from every point; and a Dirac and a cone, which point 2 sees as special[2]
+ * says. */
 static void make_lights(shading *s) {
     const inputs *in = s->in;
     static const int element[] = { 0, 1, 2, 3, 4, 5, 6, 20, 21, 30, 2 };
     for (int i = 0; i < SHADE_LIGHTS; i++) {
         const int e = element[i];
-        lmp_packed_light *light = &s->lights[i];
+        lmpi_packed_light *light = &s->lights[i];
         *light =
-            (lmp_packed_light) { .form = LMP_FORM_SPHERE,
-                                 .at = { in->center[0][e], in->center[1][e], in->center[2][e] },
-                                 .size = in->radius[e],
-                                 .color = { in->rgb[0][i], in->rgb[1][i], in->rgb[2][i] },
-                                 .axis = { 0.36f, -0.48f, 0.8f },
-                                 .outer = -0.75f,
-                                 .width = 1.5f };
+            (lmpi_packed_light) { .form = LMPI_FORM_SPHERE,
+                                  .at = { in->center[0][e], in->center[1][e], in->center[2][e] },
+                                  .size = in->radius[e],
+                                  .color = { in->rgb[0][i], in->rgb[1][i], in->rgb[2][i] },
+                                  .axis = { 0.36f, -0.48f, 0.8f },
+                                  .outer = -0.75f,
+                                  .width = 1.5f };
         light->fixed = i == 7 || i == 8;
         if (light->fixed)
             light->at = (lmp_vec3) { in->axis[0][e], in->axis[1][e], in->axis[2][e] };
         if (i >= 7) {
-            light->form = i == 8 ? LMP_FORM_CAP : i == 10 ? LMP_FORM_CONE : LMP_FORM_DIRAC;
-            light->size = i == 8 ? 0.5625f : LMP_DIRAC;
+            light->form = i == 8 ? LMPI_FORM_CAP : i == 10 ? LMPI_FORM_CONE : LMPI_FORM_DIRAC;
+            light->size = i == 8 ? 0.5625f : LMPI_DIRAC;
         }
     }
     s->ambient = (lmp_rgb) { 0.5f, 0.25f, 1 };
@@ -70,13 +71,14 @@ static int16_t number(void) {
     return (int16_t)grid(31);
 }
 
-/* Between nodes that lie whole steps apart, mirrored at both: as what depends on an angle is. */
+/* Folds a node into a table that is mirrored at both ends, as values that depend on an angle are.
+ */
 static size_t fold(size_t node, size_t count) {
     const size_t along = node % (2 * count);
     return along > count ? 2 * count - along : along;
 }
 
-/* Cells of 8 to 40 steps, rows of half as many. */
+/* Makes cells of 8 to 40 steps, with half as many rows. */
 static void make_preintegrated_lobe(shading *s) {
     uint32_t count = 0, steps[CELLS];
     for (uint32_t k = 0; k < CELLS; k++) {
@@ -109,14 +111,15 @@ static void make_preintegrated_lobe(shading *s) {
     }
 }
 
-/* The first lobe is around the mirror direction; the others are where a neighbor's numbers lie. */
+/* Makes lobes: the first is around the mirror direction, the others where a neighbor's numbers lie.
+ */
 static void make_lobes(shading *s) {
     const inputs *in = s->in;
     for (int i = 0; i < COUNT + 16; i++) {
         const float n[3] = { in->normal[0][i], in->normal[1][i], in->normal[2][i] };
         const float v[3] = { in->view[0][i], in->view[1][i], in->view[2][i] };
         const float twice = 2 * (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
-        for (int k = 0; k < LMP_KERNEL_LOBES_MAX; k++) {
+        for (int k = 0; k < LMPI_KERNEL_LOBES_MAX; k++) {
             const int from = (i + k) % (COUNT + 16);
             for (int c = 0; c < 3; c++)
                 s->axis[k][c][i] = k ? in->axis[(c + k) % 3][i] : twice * n[c] - v[c];
@@ -134,8 +137,8 @@ static void make_remap(float *remap, int steps, int count) {
         remap[i] = (float)(count - 1) * (float)(i * i) / (float)(steps * steps);
 }
 
-/* Slices of 4 to 17 rows and 4 columns and more; some end before the coordinates do. Odd bands: of
- * half a turn. */
+/* Makes slices of 4 to 17 rows and at least 4 columns; some end before the coordinates do. An odd
+ * number of bands makes them of half a turn. */
 static void make_preintegrated_brdf(shading *s) {
     const bool mirrored = s->bands % 2 != 0;
     uint32_t count = 0;
@@ -143,16 +146,16 @@ static void make_preintegrated_brdf(shading *s) {
         const uint32_t steps = (mirrored ? 1 : 4) + (i * 5 + (uint32_t)s->bands) % 7;
         const float density = 0.25f + 0.125f * (float)(i % 8);
         s->slices[i] =
-            (lmp_kernel_slice) { count,
-                                 (uint32_t)(9 * density) + (i % 3 ? 4 : 2),
-                                 steps + 3,
-                                 density,
-                                 -3.5f * density - 1,
-                                 (float)steps * (float)((mirrored ? 1 : 0.5) / ORACLE_PI),
-                                 (0.5f + 0.1f * (float)(i % 4)) / 32768 };
+            (lmpi_kernel_slice) { count,
+                                  (uint32_t)(9 * density) + (i % 3 ? 4 : 2),
+                                  steps + 3,
+                                  density,
+                                  -3.5f * density - 1,
+                                  (float)steps * (float)((mirrored ? 1 : 0.5) / ORACLE_PI),
+                                  (0.5f + 0.1f * (float)(i % 4)) / 32768 };
         count += s->slices[i].rows * s->slices[i].columns;
     }
-    s->texels = calloc(3 * (count + LMP_KERNEL_TEXELS_SPARE), sizeof *s->texels);
+    s->texels = calloc(3 * (count + LMPI_KERNEL_TEXELS_SPARE), sizeof *s->texels);
     assert_non_null(s->texels);
     for (size_t i = 0; i < VIEWS * CAPS; i++) {
         const size_t columns = s->slices[i].columns, steps = columns - 3;
@@ -171,21 +174,21 @@ static void make_preintegrated_brdf(shading *s) {
     make_remap(s->cap_remap, CAP_STEPS, CAPS);
     for (int i = 0; i < VIEWS; i++)
         s->colors[i] = (lmp_rgb) { 0.5f, 0.25f * (float)i, 1 - 0.125f * (float)i };
-    s->brdf = (lmp_kernel_preintegrated_brdf) { .mirrored = mirrored,
-                                                .width = 0.2f,
-                                                .radius = 0.3f,
-                                                .reach = 0.5f,
-                                                .slope = 1,
-                                                .lobe_angle = 0.75f,
-                                                .view_count = VIEWS,
-                                                .cap_count = CAPS,
-                                                .view_steps = VIEW_STEPS,
-                                                .cap_steps = CAP_STEPS,
-                                                .view_remap = s->view_remap,
-                                                .cap_remap = s->cap_remap,
-                                                .ambient = s->colors,
-                                                .slices = s->slices,
-                                                .texels = s->texels };
+    s->brdf = (lmpi_kernel_preintegrated_brdf) { .mirrored = mirrored,
+                                                 .width = 0.2f,
+                                                 .radius = 0.3f,
+                                                 .reach = 0.5f,
+                                                 .slope = 1,
+                                                 .lobe_angle = 0.75f,
+                                                 .view_count = VIEWS,
+                                                 .cap_count = CAPS,
+                                                 .view_steps = VIEW_STEPS,
+                                                 .cap_steps = CAP_STEPS,
+                                                 .view_remap = s->view_remap,
+                                                 .cap_remap = s->cap_remap,
+                                                 .ambient = s->colors,
+                                                 .slices = s->slices,
+                                                 .texels = s->texels };
 }
 
 static shading *shading_create(const inputs *in, int bands, int lobes) {
@@ -200,7 +203,7 @@ static shading *shading_create(const inputs *in, int bands, int lobes) {
     make_preintegrated_lobe(s);
     make_preintegrated_brdf(s);
     make_lobes(s);
-    lmp_lobe_diffuse(bands, s->diffuse);
+    lmp_lobe_make_diffuse(bands, s->diffuse);
     for (int l = 0; l < bands; l++) {
         s->diffuse[l] *= (float)(1 / ORACLE_PI);
         s->window[l] = 1 - 0.5f * (float)l / (float)bands;

@@ -2,6 +2,7 @@
 /* Kernels that store past the caches give the bits of those that do not, wherever the output lies,
  * and touch nothing beside it; batch functions take them for large outputs. */
 #include "src/kernels/batch.h"
+#include "src/kernels/dispatch.h"
 #include "tests/oracle/check.h"
 
 #include <lampion/cpu.h>
@@ -32,28 +33,30 @@ static int fill(void **test) {
     return 0;
 }
 
-/* An output of a kernel: from which float on, with how many between rows or planes. */
+/* Where the output of a kernel lies: its first float, and how many floats lie between rows or
+ * planes. */
 typedef struct place {
     size_t count, offset, gap;
     int planar, bands;
 } place;
 
-static void run(const lmp_kernels *k, place p, int streams, float *memory) {
+static void run(const lmpi_kernels *k, place p, int streams, float *memory) {
     const size_t values = LMP_SH_COUNT(p.bands);
-    const lmp_kernel_out out = { memory + p.offset, (p.planar ? p.count : values) + p.gap,
-                                 p.planar };
-    const lmp_kernel_vec3 axes = { axis[0], axis[1], axis[2] };
-    const lmp_kernel_pairs pairs = { { center[0], center[1], center[2] },
-                                     { point[0], point[1], point[2] },
-                                     radius };
+    const lmpi_kernel_out out = { memory + p.offset, (p.planar ? p.count : values) + p.gap,
+                                  p.planar };
+    const lmpi_kernel_vec3 axes = { axis[0], axis[1], axis[2] };
+    const lmpi_kernel_pairs pairs = { { center[0], center[1], center[2] },
+                                      { point[0], point[1], point[2] },
+                                      radius };
     if (streams & 2)
-        (streams & 1 ? k->project_streamed : k->project)(p.bands, &pairs, p.count, &out);
+        (streams & 1 ? k->light.project_streamed : k->light.project)(p.bands, &pairs, p.count,
+                                                                     &out);
     else
-        (streams & 1 ? k->eval_streamed : k->eval)(p.bands, &axes, p.count, &out);
-    lmp_batch_fence();
+        (streams & 1 ? k->sh.eval_streamed : k->sh.eval)(p.bands, &axes, p.count, &out);
+    lmpi_batch_fence();
 }
 
-static void check_place(const lmp_kernels *k, place p) {
+static void check_place(const lmpi_kernels *k, place p) {
     for (int kernel = 0; kernel < 4; kernel += 2) {
         memset(plain, 0x5a, sizeof plain);
         memset(streamed, 0x5a, sizeof streamed);
@@ -69,8 +72,8 @@ static void streamed_bits_are_those_of_ordinary_stores(void **test) {
     enum { COUNTS = sizeof counts / sizeof *counts, GAPS = sizeof gaps / sizeof *gaps };
     (void)test;
     for (unsigned flag = LMP_CPU_SCALAR; flag <= lmp_cpu_flags(); flag *= 2) {
-        lmp_kernels k;
-        if (lmp_kernels_init(&k, flag) != flag)
+        lmpi_kernels k;
+        if (lmpi_kernels_init(&k, flag) != flag)
             continue;
         for (int bands = 1; bands <= BANDS; bands++)
             for (int c = 0; c < COUNTS; c++)
@@ -84,8 +87,8 @@ static void streamed_bits_are_those_of_ordinary_stores(void **test) {
     }
 }
 
-/* Rows and planes of more than the threshold, of a few directions and spheres over and over; from
- * an address in the middle of a line. */
+/* The outputs exceed the threshold of streaming, with a few directions and spheres repeated; they
+ * begin in the middle of a cache line. */
 enum { LARGE = 42016, LARGE_PLANE = LARGE + 32 };
 static float large[VALUES * LARGE_PLANE + 16], few[VALUES * COUNT];
 
@@ -110,20 +113,21 @@ static void batch_functions_stream_large_outputs(void **test) {
                                  .radius = { radius, 0 } };
     const size_t plane = LARGE_PLANE * sizeof(float);
     float *const to = large + 3;
-    assert_true((size_t)VALUES * sizeof(float) * LARGE > LMP_BATCH_STREAMED);
+    assert_true((size_t)VALUES * sizeof(float) * LARGE > LMPI_BATCH_STREAMED);
     for (int planar = 0; planar < 2; planar++) {
         const lmp_sh_layout layout = planar ? LMP_SH_PLANAR : LMP_SH_INTERLEAVED;
         const size_t stride = planar ? plane : 0, floats = planar ? LARGE_PLANE : VALUES;
         for (size_t i = 0; i < sizeof large / sizeof *large; i++)
             large[i] = -77;
-        lmp_sh_eval_n(BANDS, one, 1, LMP_SH_INTERLEAVED, 0, few);
-        lmp_sh_eval_n(BANDS, one, LARGE, layout, stride, to);
+        lmp_sh_eval_n(BANDS, one, 1, lmp_sh_interleaved(few, 0));
+        lmp_sh_eval_n(BANDS, one, LARGE, (lmp_sh_array) { to, stride, layout });
         check_large(layout, floats, to);
-        lmp_sphere_project_n(BANDS, &sphere, at, 1, LMP_SH_INTERLEAVED, 0, few);
-        lmp_sphere_project_n(BANDS, &sphere, at, LARGE, layout, stride, to);
+        lmp_sphere_project_n(BANDS, &sphere, at, 1, lmp_sh_interleaved(few, 0));
+        lmp_sphere_project_n(BANDS, &sphere, at, LARGE, (lmp_sh_array) { to, stride, layout });
         check_large(layout, floats, to);
-        lmp_sh_eval_n(BANDS, one, LARGE, layout, stride, to);
-        lmp_sphere_project_all(BANDS, &sphere, 16, at, LARGE / 16, layout, stride, to);
+        lmp_sh_eval_n(BANDS, one, LARGE, (lmp_sh_array) { to, stride, layout });
+        lmp_sphere_project_all_n(BANDS, &sphere, 16, at, LARGE / 16,
+                                 (lmp_sh_array) { to, stride, layout });
         check_large(layout, floats, to);
     }
 }

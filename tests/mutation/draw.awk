@@ -18,7 +18,7 @@ function hash(text, i, sum) {
     sum = 5381
     for (i = 1; i <= length(text); i++)
         sum = (sum * 33 + index(letters, substr(text, i, 1))) % 268435399
-    # lines that end alike fall apart
+    # Mixes once more, so that lines with the same ending are drawn independently.
     return sum * 7919 % 268435399
 }
 BEGIN {

@@ -5,7 +5,7 @@ BEGIN {
     split("+ - * / < <= > >= == != && ||", from, " ")
     split("- + / * <= < >= > != == || &&", to, " ")
 }
-# the code alone, as many characters as before
+# Keeps the code alone, as many characters as before.
 {
     line = $0
     if (inside || line ~ /^ *#/ || line ~ /"/)

@@ -5,8 +5,8 @@
 # survivors, as FILE:LINE:COLUMN: THE CHANGED LINE, and the score. Survivors are tried once more by programs with
 # sanitizers, which see reads and writes past an end. Many change nothing that could be seen: those that leave the
 # compiled tests as they were are counted apart, as the same, and those of equivalent.txt (file, changed line and why
-# nothing differs, between tabs) as equivalent. build/mutation/results has the verdicts so far: a stopped run goes on
-# from there, and what is taken out of it is judged anew.
+# nothing differs, between tabs) as equivalent. build/mutation/results has what is judged so far: a stopped run goes on
+# from there, and what is taken out of it is judged again.
 set -eu
 cd "$(dirname "$0")/../.."
 count=${1:-40} folder=${2:-}
@@ -18,6 +18,7 @@ tree=$work/tree results=$work/results log=$work/log
 subjects() {
     while read -r pattern tests; do
         for file in $pattern; do
+            [ -f "$file" ] || { echo "mutate: there is no $pattern" >&2; continue; }
             case $file in
             *_table.c | src/base/tables.c) ;;
             "$folder"*) echo "$file $tests" ;;
@@ -33,11 +34,12 @@ src/sh/quadrature.c unit.project unit.assertions
 src/sh/rotation.c unit.rotation unit.assertions
 src/sh/window.c unit.window unit.assertions
 src/sh/*.c unit.sh unit.assertions
-src/light/double.c unit.double
+src/sphere/double.c unit.double
+src/sphere/*.c unit.sphere unit.edges unit.assertions
 src/light/*.c unit.light unit.sphere unit.edges unit.assertions
 src/lobe/*.c unit.lobe unit.ggx_lobes unit.assertions
 src/probe/*.c unit.probe unit.probe_engines unit.peers unit.peers_engines unit.assertions
-src/shade/*.c unit.shade unit.shade_n unit.coat unit.fibers unit.environment unit.assertions
+src/shade/*.c unit.shade unit.shade_n unit.coat unit.sheen unit.environment unit.assertions
 src/field/*.c unit.field_bytes unit.field unit.field_changes unit.field_shade unit.assertions
 src/preintegrated/brdf*.c unit.preintegrated_brdf unit.preintegrated_brdf_bytes unit.assertions
 src/preintegrated/*.c unit.preintegrated_lobe unit.assertions
@@ -45,31 +47,34 @@ src/brdf/rgl*.c unit.brdf_rgl unit.brdf_rgl_written unit.brdf_rgl_refusals unit.
 src/brdf/sheen.c unit.brdf_sheen unit.assertions
 src/brdf/*.c unit.brdf_table_bytes unit.brdf unit.brdf_table unit.brdf_files unit.assertions
 src/kernels/*.h kernels.kernels kernels.batch
-app/trace/trace.c reference.estimator reference.render reference.texture
-app/trace/*.c reference.texture reference.estimate
-app/reference/part.c reference.part
-app/reference/sheen.c reference.sheen
-app/reference/ggx.c reference.ggx reference.layers
-app/reference/*.c reference.estimator reference.texture reference.kinds reference.environment reference.ggx reference.estimate reference.render
-app/compare/*.c reference.compare
+app/scene/trace/trace.c reference.estimator reference.render reference.texture
+app/scene/texture_at.c reference.texture reference.estimate
+app/scene/trace/*.c reference.texture reference.estimate
+app/truth/reference_part.c reference.part
+app/truth/reference_sheen.c reference.sheen
+app/truth/reference_ggx.c reference.ggx reference.layers
+app/truth/reference_*.c reference.estimator reference.texture reference.kinds reference.environment reference.ggx reference.estimate reference.render
+app/image/compare.c reference.compare
+app/image/flip.c reference.compare
+app/image/ssim.c reference.compare
 app/render/shadow/around.c program.around gpu.shadow
 app/render/shadow/*.c program.shadow gpu.shadow gpu.shadow_filter
-app/render/shade/*.c gpu.table gpu.field gpu.shade gpu.draw
+app/render/shade*.c gpu.table gpu.field gpu.shade gpu.draw
 app/render/gl/table.c gpu.table gpu.draw
 app/render/gl/environment.c gpu.devices
 app/render/gl/zonal.c gpu.devices
 app/render/gl/screen.c gpu.screen
 app/render/gl/*.c gpu.table gpu.edges gpu.draw gpu.plate gpu.shadow gpu.shade gpu.devices
-shaders/table.glsl gpu.table
-shaders/environment.glsl gpu.devices gpu.table
-shaders/field.glsl gpu.field
-shaders/*.glsl gpu.glsl gpu.table gpu.draw gpu.plate gpu.shade gpu.devices
-shaders/*.comp gpu.draw gpu.shade
-shaders/compose.frag gpu.screen
-shaders/drawing.frag gpu.screen
-shaders/screen.vert gpu.screen gpu.draw
-shaders/*.frag gpu.draw gpu.plate reference.layers
-shaders/*.vert gpu.draw gpu.plate
+shaders/program/table.glsl gpu.table
+shaders/program/environment.glsl gpu.devices gpu.table
+shaders/program/field.glsl gpu.field
+shaders/*/*.glsl gpu.glsl gpu.table gpu.draw gpu.plate gpu.shade gpu.devices
+shaders/program/*.comp gpu.draw gpu.shade
+shaders/program/compose.frag gpu.screen
+shaders/program/drawing.frag gpu.screen
+shaders/program/screen.vert gpu.screen gpu.draw
+shaders/program/*.frag gpu.draw gpu.plate reference.layers
+shaders/program/*.vert gpu.draw gpu.plate
 END
 }
 
@@ -77,18 +82,18 @@ mkdir -p "$tree"
 git ls-files -z | tar -c --null -T - | tar -x -C "$tree"
 touch "$results"
 target() { echo "test_$1" | tr . _; }
-# make BUILD TEST…: their programs.
+# make BUILD TEST…: builds their programs.
 make() {
     build=$1
     shift
     timeout 600 cmake --build "$build" --target $(for test; do target "$test"; done) >"$log" 2>&1
 }
 
-# prepare BUILD SANITIZERS TEST…: what each test is without a change, that it passes, and for how long it may run.
+# prepare BUILD SANITIZERS TEST…: records each test's program without a change, that it passes, and how long it may run.
 prepare() {
     build=$1 sanitizers=$2
     shift 2
-    # one instruction set: it compiles in a third of the time, and gives the same bits; assertions stay in
+    # One instruction set compiles in a third of the time and gives the same bits; assertions stay in.
     cmake -G Ninja -S "$tree" -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-O2 -DLAMPION_SIMD=OFF \
         -DLAMPION_SANITIZE="$sanitizers" >"$log" 2>&1 || { tail -n 20 "$log"; exit 1; }
     timeout 3600 cmake --build "$build" --target $(for test; do target "$test"; done) >"$log" 2>&1 ||
@@ -102,8 +107,8 @@ prepare() {
     done
 }
 
-# verdict BUILD TEST…: of the change that is in place. A program that is what it was before has nothing to notice.
-verdict() {
+# result_of BUILD TEST…: judges the change in place. A program that is the same as before has nothing to notice.
+result_of() {
     build=$1 result=same
     shift
     for test; do
@@ -119,7 +124,7 @@ END
 }
 
 tab=$(printf '\t')
-# judge BUILD: each mutant of the input, for the results.
+# judge BUILD: judges each mutant of the input, and adds it to the results.
 judge() {
     while IFS=$tab read -r file line column length text tests; do
         awk -v line="$line" -v column="$column" -v length_="$length" -v text="$text" '
@@ -129,19 +134,19 @@ judge() {
         if grep -qF "$file$tab$changed$tab" tests/mutation/equivalent.txt; then
             result=equivalent
         else
-            result=$(verdict "$1" $tests </dev/null)
+            result=$(result_of "$1" $tests </dev/null)
         fi
         printf '%s: %s\n' "$result" "$file:$line:$column: $changed"
         cp "$file" "$tree/$file"
     done
 }
 
-# with VERDICT: the drawn mutants whose results begin so; nothing: those that have none yet.
+# with RESULT: prints the drawn mutants whose results begin so; without RESULT those that have none yet.
 with() {
     awk -F '\t' -v wanted="$1" '
-        FILENAME == ARGV[1] { at = index($0, ": "); split(substr($0, at + 2), place, ": "); verdict[place[1]] = substr($0, 1, at - 1); next }
+        FILENAME == ARGV[1] { at = index($0, ": "); split(substr($0, at + 2), place, ": "); result[place[1]] = substr($0, 1, at - 1); next }
         { place[1] = $1 ":" $2 ":" $3 }
-        wanted == "" ? !(place[1] in verdict) : index(verdict[place[1]], wanted) == 1' "$results" "$work/drawn"
+        wanted == "" ? !(place[1] in result) : index(result[place[1]], wanted) == 1' "$results" "$work/drawn"
 }
 
 subjects | while read -r file tests; do

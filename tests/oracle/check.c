@@ -72,7 +72,7 @@ void check_seed(unsigned long long seed) {
     print_message("seed: %llu (LAMPION_SEED sets the first)\n", seed);
 }
 
-/* splitmix64 */
+/* Returns random bits by splitmix64. */
 static uint64_t random_bits(void) {
     if (!seeded) {
         const char *given = getenv("LAMPION_SEED");

@@ -18,8 +18,8 @@ void check_within(double error, double bound, const char *file, int line);
 #define CHECK_WITHIN(error, bound)                                                                 \
     check_within((double)(error), (double)(bound), __FILE__, __LINE__)
 
-/* Whether this build asserts its preconditions, and the line of a test that judges only one kind of
- * build: then return from it. */
+/* Whether this build asserts its preconditions; and check_skip, which prints why a test does not
+ * concern this kind of build: then return from it. */
 #ifdef NDEBUG
 #define CHECK_ASSERTS false
 #else
@@ -27,12 +27,12 @@ void check_within(double error, double bound, const char *file, int line);
 #endif
 void check_skip(const char *why);
 
-/* max |actual - expected| / max |expected|; NaN if any value is. (All expected 0: the absolute
- * error.) */
+/* Returns max |actual - expected| / max |expected|, or the absolute error where all expected values
+ * are 0; NaN if any value is NaN. */
 double check_error(size_t count, const double *expected, const float *actual);
 double check_error_double(size_t count, const double *expected, const double *actual);
 
-/* Errors accumulated one by one; a NaN stays the largest. */
+/* Errors accumulated one by one; a NaN remains the largest. */
 typedef struct check_errors {
     double largest, squares;
     long count;
@@ -40,17 +40,17 @@ typedef struct check_errors {
 void check_errors_add(check_errors *errors, double error);
 double check_errors_rms(const check_errors *errors);
 
-/* How many: `all` where LAMPION_LONG=1 asks for a test's full size (./dev test --all), else `some`,
- * which can fail for the same reasons. */
+/* Returns a test's size: `all` where LAMPION_LONG=1 asks for the full size (./dev test --all), else
+ * `some`, which can fail for the same reasons. */
 int check_count(int some, int all);
 
-/* The OpenGL device of a test that judges images: software, which every machine has, or the one
- * that LAMPION_TEST_GL_DEVICE names as --gl-device does. */
+/* Returns the OpenGL device for tests that judge images: software, which every machine has, or the
+ * device that LAMPION_TEST_GL_DEVICE names as --gl-device does. */
 const char *check_gl_device(void);
 
 /* --- random numbers ---------------------------------------------------------------------------
  * One fixed seed, printed at the first use, settable by the environment variable LAMPION_SEED. */
-void check_seed(unsigned long long seed);        /* begins with another, and prints it */
+void check_seed(unsigned long long seed);        /* begins with another seed, and prints it */
 double check_random(void);                       /* uniform in [0, 1) */
 double check_random_between(double a, double b); /* uniform in [a, b) */
 lmp_vec3 check_random_direction(void);

@@ -38,7 +38,7 @@ lmp_rgb crowd_shade_one(const crowd *c, int i, bool environment) {
                        : lmp_shade(NULL, &c->material[i], &c->at[i], c->lights, CROWD_LIGHTS);
 }
 
-/* In a stride wider than a color. */
+/* The output has a stride wider than a color. */
 static void check_many(const crowd *c, bool environment) {
     const lmp_surface *at = c->at;
     const size_t stride = sizeof *at;
@@ -53,9 +53,11 @@ static void check_many(const crowd *c, bool environment) {
     const lmp_environment around = { c->sh, 6 };
     float rgb[4 * CROWD_COUNT];
     if (environment)
-        lmp_shade_environment_n(NULL, &all, CROWD_COUNT, &around, 4 * sizeof *rgb, rgb);
+        lmp_shade_environment_n(NULL, &all, CROWD_COUNT, &around,
+                                (lmp_rgb_array) { rgb, 4 * sizeof *rgb });
     else
-        lmp_shade_n(NULL, &all, CROWD_COUNT, c->lights, CROWD_LIGHTS, 4 * sizeof *rgb, rgb);
+        lmp_shade_n(NULL, &all, CROWD_COUNT, c->lights, CROWD_LIGHTS,
+                    (lmp_rgb_array) { rgb, 4 * sizeof *rgb });
     for (int i = 0; i < CROWD_COUNT; i++) {
         const lmp_rgb one = crowd_shade_one(c, i, environment);
         CHECK_WITHIN(fabs((double)rgb[4 * i] - (double)one.r), 3e-5);
@@ -69,7 +71,7 @@ void crowd_check_many(const crowd *c) {
     check_many(c, true);
 }
 
-/* Of the diffuse lobe coefficients have the bands alone. */
+/* Removes the diffuse lobe, which coefficients truncate. */
 static lmp_material without_diffuse(lmp_material material) {
     if (material.kind == LMP_MATERIAL_METALLIC_ROUGHNESS)
         material.metallic = 1;
@@ -82,14 +84,14 @@ void crowd_check_methods(const crowd *c, double bound) {
     lmp_preintegrated_lobe *lobe;
     assert_int_equal(lmp_preintegrated_lobe_create(NULL, NULL, &lobe), LMP_OK);
     for (int i = 0; i < CROWD_COUNT; i++) {
-        lmp_rgb by[LMP_SHADE_METHODS];
+        lmp_rgb by[LMP_SHADE_METHOD_COUNT];
         const lmp_material material = without_diffuse(c->material[i]);
-        for (int method = 0; method < LMP_SHADE_METHODS; method++) {
+        for (int method = 0; method < LMP_SHADE_METHOD_COUNT; method++) {
             const lmp_shade_settings settings = { .method = (lmp_shade_method)method,
                                                   .lobe = lobe };
             by[method] = lmp_shade(&settings, &material, &c->at[i], c->lights, CROWD_LIGHTS);
         }
-        for (int method = 1; method < LMP_SHADE_METHODS; method++)
+        for (int method = 1; method < LMP_SHADE_METHOD_COUNT; method++)
             CHECK_WITHIN(fabs((double)by[method].r - (double)by[0].r),
                          method == LMP_SHADE_COEFFICIENTS ? 1e-5 : bound);
     }

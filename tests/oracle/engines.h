@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* engines.h - what the shaders of game engines make of a probe, written from their documentation
- * (docs/probes.md), and what a sphere light gives, by closed forms without harmonics' code. */
+ * (docs/probes.md), and the irradiance of a sphere light by closed forms without the code of
+ * harmonics. */
 #ifndef LAMPION_TESTS_ORACLE_ENGINES_H
 #define LAMPION_TESTS_ORACLE_ENGINES_H
 
@@ -10,8 +11,8 @@
 
 #include <math.h>
 
-/* What a white diffuse surface reflects, irradiance over pi, of one channel's nine values and a
- * normal in the engine's world. */
+/* Returns what a white diffuse surface reflects, irradiance over pi, from one channel's nine values
+ * and a normal in the engine's world. */
 typedef double engine_shader(const double v[9], const double n[3]);
 
 /* Unity: GetSHCoefficients makes unity_SHAr, unity_SHBr and unity_SHC of SphericalHarmonicsL2;
@@ -61,15 +62,15 @@ static inline double filament_shader(const double v[9], const double n[3]) {
            v[6] * (3 * z * z - 1) + v[7] * z * x + v[8] * (x * x - y * y);
 }
 
-static engine_shader *const engine_shaders[LMP_PROBE_ENGINES] = {
+static engine_shader *const engine_shaders[LMP_PROBE_ENGINE_COUNT] = {
     unity_shader,
     unreal_shader,
     godot_shader,
     filament_shader,
 };
 
-/* A direction of a world with glTF's axes as the engine's importers see it: UnityGLTF and Unity's
- * own glTFast negate x, Unreal's GLTFCore exchanges y and z. */
+/* Converts a direction of a world with glTF's axes as the engine's importers do: UnityGLTF and
+ * Unity's own glTFast negate x, Unreal's GLTFCore exchanges y and z. */
 static inline void engine_direction(lmp_probe_engine engine, const double n[3], double theirs[3]) {
     const bool unity = engine == LMP_PROBE_UNITY, unreal = engine == LMP_PROBE_UNREAL;
     theirs[0] = unity ? -n[0] : n[0];
@@ -77,13 +78,13 @@ static inline void engine_direction(lmp_probe_engine engine, const double n[3], 
     theirs[2] = unreal ? n[1] : n[2];
 }
 
-/* Value i of channel c among a probe's 27: Unity's and Unreal's structures hold nine of red first,
- * Godot and Filament an array of nine colors. */
+/* Returns the index of value i of channel c among a probe's 27: Unity's and Unreal's structures
+ * hold nine of red first, Godot and Filament an array of nine colors. */
 static inline int engine_index(lmp_probe_engine engine, int i, int c) {
     return engine == LMP_PROBE_UNITY || engine == LMP_PROBE_UNREAL ? 9 * c + i : 3 * i + c;
 }
 
-/* What the engine makes of channel c of a probe; n in glTF's axes. */
+/* Returns what the engine makes of channel c of a probe; n is in glTF's axes. */
 static inline double engine_reflects(lmp_probe_engine engine, const float *values, int c,
                                      const double n[3]) {
     double v[9], theirs[3];
@@ -93,8 +94,8 @@ static inline double engine_reflects(lmp_probe_engine engine, const float *value
     return engine_shaders[engine](v, theirs);
 }
 
-/* Irradiance of a sphere of radiance 1 whose center is seen under `cosine` from the normal: exact
- * where it is all above the surface, and of three bands at any normal: the zonal integrals of
+/* Returns the irradiance of a sphere of radiance 1 whose center has the `cosine` with the normal:
+ * exact where it is all above the surface, and of three bands at any normal: the zonal integrals of
  * Legendre's polynomials over its cap, times those of the clamped cosine, pi, 2 pi / 3, pi / 4. */
 static inline double sphere_irradiance(double radius, double distance, double cosine) {
     return ORACLE_PI * radius * radius / (distance * distance) * cosine;

@@ -24,7 +24,8 @@ static const quadrature *gauss(void) {
     return &q;
 }
 
-/* ∫ over the part of a ring that is in the cap, by theta and by half the length of the arc. */
+/* Returns ∫ over the part of a ring that is in the cap, by theta and by half the length of the arc.
+ */
 typedef double (*ring_function)(double theta, double half_arc, const void *user);
 
 static double half_arc(double to, double a, double theta) {
@@ -34,7 +35,7 @@ static double half_arc(double to, double a, double theta) {
     return 2 * asin(sqrt(fmin(fmax(s, 0), 1)));
 }
 
-/* Between two angles theta; `full`: the rings are whole. */
+/* Integrates between two angles theta; `full` means that the rings are whole. */
 static double integrate_panel(double to, double a, double low, double high, bool full,
                               ring_function function, const void *user) {
     const double from = full ? low : asin(fmin(fmax((low - to) / a, -1), 1));
@@ -49,8 +50,8 @@ static double integrate_panel(double to, double a, double low, double high, bool
     return sum * (until - from) / 2;
 }
 
-/* Up to 90 degrees from the pole, in panels that grow threefold from `peak`, the first of them
- * `width` / 4 long. */
+/* Integrates up to 90 degrees from the pole, in panels that grow threefold from `peak`, the first
+ * of them `width` / 4 long. */
 static double integrate_cap(double to, double a, double peak, double width, ring_function function,
                             const void *user) {
     const double whole = fmin(fmax(a - to, 0), PI / 2), start = fmin(fabs(to - a), PI / 2);
@@ -72,7 +73,7 @@ static double integrate_cap(double to, double a, double peak, double width, ring
 
 /* --- what is integrated ----------------------------------------------------------------------- */
 
-/* f_r cos of appendix B. */
+/* Evaluates f_r cos of appendix B. */
 static double gltf(const oracle_gltf *s, double theta, double phi) {
     const double nl = cos(theta), nv = cos(s->view), a2 = s->alpha * s->alpha;
     const double vl = nl * nv - sin(theta) * sin(s->view) * cos(phi);
@@ -91,7 +92,7 @@ typedef struct gltf_cap {
     double azimuth;
 } gltf_cap;
 
-/* Azimuths are dense around the peak, at 0: phi = width sinh t. */
+/* Integrates a ring with azimuths dense around the peak, at 0: phi = width sinh t. */
 static double gltf_ring(double theta, double half_arc, const void *user) {
     const gltf_cap *cap = user;
     const oracle_gltf *s = &cap->surface;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* kinds.h - a light of each kind, as bright as one another, for a scene some units wide around the
- * origin: both sides of pi/2 of a cap, and a spot whose cone ends within the scene. */
+/* kinds.h - one light of each kind, all equally bright, for a scene some units wide around the
+ * origin: caps on both sides of pi/2, and a spot whose cone ends within the scene. */
 #ifndef TESTS_KINDS_H
 #define TESTS_KINDS_H
 

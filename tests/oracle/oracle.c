@@ -21,7 +21,7 @@ static void normalize(const double v[3], double w[3]) {
         w[k] = v[k] / length;
 }
 
-/* Two directions that make a right-handed frame with w. */
+/* Finds two directions that make a right-handed frame with w. */
 static void frame(const double w[3], double u[3], double v[3]) {
     const double helper[3] = { fabs(w[0]) < 0.5, fabs(w[0]) >= 0.5, 0 };
     const double cross[3] = { helper[1] * w[2] - helper[2] * w[1],
@@ -35,7 +35,7 @@ static void frame(const double w[3], double u[3], double v[3]) {
 
 /* --- the basis -------------------------------------------------------------------------------- */
 
-/* Extended precision: next to t = 1 the rounding of t alone costs P_l l² units. */
+/* Computed in extended precision: next to t = 1 the rounding of t alone costs P_l l² units. */
 static void legendre(int bands, long double t, double *p) {
     long double before = 0, now = 1;
     for (int l = 0; l < bands; l++) {
@@ -50,7 +50,7 @@ void oracle_legendre(int bands, double t, double *p) {
     legendre(bands, (long double)t, p);
 }
 
-/* K_m^m of paper Eq. 2. */
+/* Returns K_m^m of paper Eq. 2. */
 static long double first_normalization(int m) {
     long double k = sqrtl((2 * m + 1) / (4 * (long double)pi));
     for (int i = 1; i <= 2 * m; i++)
@@ -166,8 +166,8 @@ void oracle_cap(int bands, const double axis[3], double one_minus_cos, double *s
     free(y);
 }
 
-/* The derivative of Y along the great circle from w towards e. Y is a trigonometric polynomial of
- * degree bands-1 there, so M. Riesz's interpolation formula is exact. */
+/* Returns the derivative of Y along the great circle from w towards e. Y is a trigonometric
+ * polynomial of degree bands-1 there, so M. Riesz's interpolation formula is exact. */
 static void circle_derivative(int bands, const double w[3], const double e[3], double *slope) {
     const int degree = bands > 1 ? bands - 1 : 1;
     const size_t count = (size_t)bands * (size_t)bands;
@@ -250,26 +250,27 @@ static void moments(int bands, sample (*at)(long double s, double parameter), do
         moment[l] = (double)sum[l];
 }
 
-/* Past here nothing is left of exp(-y) in double. */
+/* Past this, exp(-y) vanishes in double. */
 static const long double depth = 60;
 
-/* With t = exp(-y/(e+1)) the kernel's (e+1) t^e dt is exp(-y) dy; y = u², for P_l oscillates evenly
- * in u. */
+/* Substitutes t = exp(-y/(e+1)), so that the kernel's (e+1) t^e dt is exp(-y) dy; y = u², because
+ * P_l oscillates evenly in u. */
 static sample phong_sample(long double s, double exponent) {
     const long double u = s * sqrtl(depth);
     return (sample) { 2 * u * sqrtl(depth) * expl(-u * u),
                       expl(-u * u / ((long double)exponent + 1)) };
 }
 
-/* In t = cos theta, up to where exp(k (t-1)) ends. */
+/* Substitutes t = cos theta, up to where exp(k (t-1)) ends. */
 static sample vmf_sample(long double s, double concentration) {
     const long double k = (long double)concentration;
     const long double end = 2 * asinl(sqrtl(fminl(1, depth / (2 * k)))), theta = s * end;
-    const long double half = sinl(theta / 2), y = 2 * k * half * half;
-    return (sample) { end * k * sinl(theta) * expl(-y) / -expm1l(-2 * k), 1 - 2 * half * half };
+    const long double half_sine = sinl(theta / 2), y = 2 * k * half_sine * half_sine;
+    return (sample) { end * k * sinl(theta) * expl(-y) / -expm1l(-2 * k),
+                      1 - 2 * half_sine * half_sine };
 }
 
-/* The integral of max(a + b cos phi, 0) over a turn, b >= 0. */
+/* Returns the integral of max(a + b cos phi, 0) over a turn, b >= 0. */
 static double above_horizon(double a, double b) {
     if (a >= b)
         return 2 * pi * a;
@@ -285,14 +286,14 @@ double oracle_irradiance(double cosine, double one_minus_cos) {
     double sum = 0;
     const double sine = sqrt(fmax((1 - cosine) * (1 + cosine), 0));
     const double end = 2 * asin(sqrt(one_minus_cos / 2)), kink = atan2(fabs(cosine), sine);
-    /* Circles around the axis; the horizon begins and ends to cut them at the kinks. */
+    /* Circles around the axis: at the kinks the horizon begins and ends to cut them. */
     const double ends[4] = { 0, fmin(kink, end), fmin(pi - kink, end), end };
     if (weight[0] == 0)
         oracle_gauss_legendre(NODES, x, weight);
     for (int piece = 0; piece < 3; piece++)
         for (int i = 0; i < NODES; i++) {
             const double length = ends[piece + 1] - ends[piece], t = (1 + x[i]) / 2;
-            /* Slow at both ends, where derivatives are infinite. */
+            /* The substitution is slow at both ends, where derivatives are infinite. */
             const double angle = ends[piece] + length * t * t * (3 - 2 * t);
             sum += 3 * length * t * (1 - t) * weight[i] * sin(angle) *
                    above_horizon(cosine * cos(angle), sine * sin(angle));

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* placed.h - for scenes that a test makes by hand: meshes stand where they are. */
+/* placed.h - instances for scenes that a test makes by hand, whose meshes stand where they are. */
 #ifndef LAMPION_TESTS_PLACED_H
 #define LAMPION_TESTS_PLACED_H
 
 #include "app/scene/instance.h"
 
-/* An instance of each of the first meshes, the same for all callers; NULL: more than there are. */
+/* Returns an instance of each of the first meshes, the same array for all callers; NULL if there
+ * are not enough. */
 static inline const scene_instance *placed_meshes(size_t count) {
     enum { MOST = 256 };
     static scene_instance all[MOST];

@@ -23,7 +23,7 @@ static double lambda_sheen(double cos_theta, double alpha_g) {
                            : exp(2.0 * l(0.5, alpha_g) - l(1.0 - cos_theta, alpha_g));
 }
 
-/* Below, the fit of the masking has no meaning. */
+/* Clamps a cosine: below, the fit of the masking has no meaning. */
 static double held(double cosine) {
     return fmax(cosine, 1e-4);
 }
@@ -44,7 +44,8 @@ double oracle_sheen_unlimited(double roughness, const double light[3], const dou
 
 /* --- what arrives ----------------------------------------------------------------------------- */
 
-/* By Gauss-Legendre in the cube root of the light's cosine and the root of its azimuth. */
+/* Integrates by Gauss-Legendre in the cube root of the light's cosine and the square root of its
+ * azimuth. */
 static double unlimited_albedo(double roughness, double cosine) {
     enum { NODES = 48 };
     static double node[NODES], weight[NODES];
@@ -65,7 +66,7 @@ static double unlimited_albedo(double roughness, double cosine) {
 
 enum { KEPT = 100 };
 
-/* Values are kept for one roughness. */
+/* Returns the gain; values are kept for one roughness. */
 double oracle_sheen_gain(double roughness, double cosine) {
     static double last, kept[KEPT + 1];
     const double least = log(1e-4), at = (log(held(cosine)) / least) * KEPT;
@@ -85,7 +86,8 @@ double oracle_sheen(double roughness, const double light[3], const double view[3
 
 /* --- integrals -------------------------------------------------------------------------------- */
 
-/* What a ring of polar angle acos(z) around a direction `to` from the normal gives, of weight 1. */
+/* Returns what a ring of polar angle acos(z) around a direction `to` from the normal gives, of
+ * weight 1. */
 static double ring(double roughness, const double view[3], double to, double z, int azimuths) {
     const double s = sqrt(1 - z * z);
     double sum = 0;
@@ -99,7 +101,7 @@ static double ring(double roughness, const double view[3], double to, double z, 
     return sum * 2 * ORACLE_PI / azimuths;
 }
 
-/* E, over rings dense at the horizon. */
+/* Integrates E over rings that are dense at the horizon. */
 double oracle_sheen_albedo(double roughness, double angle) {
     enum { RINGS = 120, AZIMUTHS = 400 };
     static double node[RINGS], weight[RINGS];
@@ -113,11 +115,11 @@ double oracle_sheen_albedo(double roughness, double angle) {
     return sum;
 }
 
-/* What a cap of radiance 1 above the horizon gives white fibers. */
-double oracle_sheen_cap(double roughness, double to, double half, double angle) {
+/* Integrates what a cap of radiance 1 above the horizon gives white sheen. */
+double oracle_sheen_cap(double roughness, double to, double half_angle, double angle) {
     enum { RINGS = 24, AZIMUTHS = 48 };
     static double node[RINGS], weight[RINGS];
-    const double view[3] = { sin(angle), 0, cos(angle) }, height = 1 - cos(half);
+    const double view[3] = { sin(angle), 0, cos(angle) }, height = 1 - cos(half_angle);
     double sum = 0;
     oracle_gauss_legendre(RINGS, node, weight);
     for (int i = 0; i < RINGS; i++) {

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* throng.h - a scene of which most is instances, and the same without. */
+/* throng.h - a scene that consists mostly of instances, and the same scene without instances. */
 #ifndef LAMPION_TESTS_THRONG_H
 #define LAMPION_TESTS_THRONG_H
 
-#include "app/scene/builtin.h"
+#include "app/scene/builtin/builtin.h"
 #include "app/scene/flatten.h"
 #include "app/scene/instance.h"
 #include "tests/oracle/check.h"
 
 #include <math.h>
 
-/* Any rotation, scales from 0.2 to 1.2, every third mirrored, every fourth stretched. */
+/* Places an instance by any rotation, with scales from 0.2 to 1.2, every third one mirrored, every
+ * fourth stretched. */
 static inline void throng_place(int number, uint32_t mesh, scene_instance *instance) {
     double m[16] = { [15] = 1.0 }, q[4], length = 0.0;
     for (int i = 0; i < 4; i++) {
@@ -35,14 +36,14 @@ static inline void throng_place(int number, uint32_t mesh, scene_instance *insta
     instance->mesh = mesh;
 }
 
-/* builtin:balls, and its meshes `count` times more; flattened, every mesh stands in the world. The
- * random numbers go on from where they are: seed them alike to get the same throng. */
+/* Opens builtin:balls with `count` more instances of its meshes; flattened, every mesh stands in
+ * the world. The random numbers continue: seed them alike to get the same throng. */
 static inline scene throng_open(int count, bool flattened) {
     scene_builder builder = { 0 };
     void *block;
     size_t size;
     scene world = { .block = NULL };
-    cli_error error = { "" };
+    base_error error = { "" };
     assert_true(builtin_make("balls", &builder, &error));
     const uint32_t meshes = (uint32_t)builder_count(&builder, BLOB_MESHES);
     scene_instance *instances = builder_append(&builder, BLOB_INSTANCES, (size_t)count);

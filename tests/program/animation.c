@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Paths of lights: functions of time, closed, and as the files say. */
-#include "app/animation/animation.h"
+#include "app/scene/animation.h"
 
 #include "tests/program/load.h"
 
@@ -15,7 +15,7 @@
 
 static animation *open_path(const char *name, const scene *s) {
     animation *path = NULL;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     if (!animation_open(name, s, &path, &error))
         fail_msg("%s", error.text);
     return path;
@@ -33,7 +33,7 @@ static void check_position(const scene_light *light, double x, double y, double 
     CHECK_NEAR(z, light->emitter.position.z, 1e-5);
 }
 
-/* Writes a temporary file; unlink it. */
+/* Writes a temporary file, which the caller unlinks. */
 static const char *write_file(const char *suffix, const char *text) {
     static char path[64];
     snprintf(path, sizeof path, "/tmp/lampion-path-XXXXXX%s", suffix);
@@ -106,12 +106,12 @@ static void files_say_how_lights_move(void **state) {
     check_position(&light, 2.5, 1, 1);
     light = at(path, &s, 0, 4e5 + 3.0); /* any number of rounds later */
     check_position(&light, 2, 1, 1);
-    /* keys on a line at one speed: a smooth path is that line */
+    /* keys on a line at constant speed, so that a smooth path is that line */
     light = at(path, &s, 1, 2.25);
     check_position(&light, 2.25, 0, 0);
     light = at(path, &s, 2, 1.0);
     check_position(&light, 1, (double)light.emitter.radius, 1);
-    light = at(path, &s, 3, 1.0); /* a quarter from x towards -z */
+    light = at(path, &s, 3, 1.0); /* a quarter turn from x towards -z */
     check_position(&light, 1, 1, -1);
     light = at(path, &s, 3, 2.0);
     check_position(&light, -1, 1, -1);
@@ -191,7 +191,7 @@ static void bad_paths_are_refused_in_one_line(void **state) {
     };
     scene s = load("builtin:ball");
     animation *path = NULL;
-    cli_error error;
+    base_error error;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         const char *file = write_file(".json", bad[i]);
         error.text[0] = '\0';
@@ -211,7 +211,7 @@ static void bad_paths_are_refused_in_one_line(void **state) {
     scene_free(&s);
 }
 
-/* Circles far away and splines of steep keys lead beyond what the library takes. */
+/* Circles far away and splines of steep keys would lead beyond the library's lengths. */
 static void no_path_leads_out_of_reach(void **state) {
     (void)state;
     static const char *const far[] = {
@@ -237,8 +237,8 @@ static void no_path_leads_out_of_reach(void **state) {
     scene_free(&s);
 }
 
-/* A sun goes around the axis of a circle and stays a unit vector; a spot rotates on its way; what
- * has no position does not bounce or orbit. */
+/* A sun follows the axis of a circle and stays a unit vector; a spot rotates on its way; what has
+ * no position neither bounces nor orbits. */
 static void circles_rotate_directions(void **state) {
     (void)state;
     scene s = load("builtin:ball");
@@ -262,7 +262,7 @@ static void circles_rotate_directions(void **state) {
     assert_memory_equal(&still, &s.lights[0], sizeof still);
     animation_close(path);
     file = write_file(".json", "{\"paths\":[{\"light\":0,\"keys\":[[0,0,0,0],[1,1,1,1]]}]}");
-    cli_error error;
+    base_error error;
     assert_false(animation_open(file, &s, &path, &error));
     assert_non_null(strstr(error.text, "paths[0] moves a cap light, which has no position"));
     unlink(file);

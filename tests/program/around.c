@@ -13,7 +13,7 @@ static float rgb[TEXELS][3];
 static environment sky = { .light = { WIDTH, HEIGHT, rgb[0] }, .azimuth = 0.7f };
 static const double pi = 3.14159265358979323846;
 
-/* Every texel its own color, some black, one a sun. */
+/* Gives every texel its own color; some are black, and one is a sun. */
 static void color(void) {
     for (int i = 0; i < TEXELS; i++)
         for (int c = 0; c < 3; c++)
@@ -21,7 +21,7 @@ static void color(void) {
     rgb[11][0] = 50;
 }
 
-/* Of a row's texel: a part of the belt between two cosines. */
+/* Returns the solid angle of a texel in a row: a part of the belt between two cosines. */
 static double solid_angle(int row) {
     return 2 * pi / WIDTH * (cos(pi * row / HEIGHT) - cos(pi * (row + 1) / HEIGHT));
 }
@@ -57,19 +57,19 @@ static double all_light(void) {
     return all;
 }
 
-/* The middle of a step. */
+/* Returns the middle of a step. */
 static float step(int number) {
     return ((float)number + 0.5f) / STEPS;
 }
 
-/* The radiance over the density. */
+/* Returns the radiance over the density. */
 static lmp_rgb arrives_by(const shadow_arrival *a) {
     return (lmp_rgb) { a->radiance.r / a->density, a->radiance.g / a->density,
                        a->radiance.b / a->density };
 }
 
-/* Each is that of the texel it points to, over its density: so often as its part of all the light
- * is, and as much a solid angle all over the texel. */
+/* Each direction brings the radiance of the texel it points to, over its density: texels are drawn
+ * as often as their fraction of all light, uniformly over their solid angle. */
 static void directions_bring_what_their_texels_have(void **state) {
     (void)state;
     static int drawn[TEXELS];
@@ -105,7 +105,7 @@ static void directions_bring_what_their_texels_have(void **state) {
     shadow_around_free(&around);
 }
 
-/* The radiance is that of the direction's texel, its density what shadow_around_draw makes. */
+/* The radiance is that of the direction's texel, and its density that of shadow_around_draw. */
 static void a_direction_has_the_radiance_of_its_texel(void **state) {
     (void)state;
     shadow_around around;
@@ -123,7 +123,7 @@ static void a_direction_has_the_radiance_of_its_texel(void **state) {
     shadow_around_free(&around);
 }
 
-/* Irradiance of a normal by summing over the texels in small steps. */
+/* Returns the irradiance of a normal by summing over the texels in small steps. */
 static double irradiance_of(lmp_vec3 normal) {
     enum { FINE = 40 };
     double sum = 0;
@@ -142,10 +142,10 @@ static double irradiance_of(lmp_vec3 normal) {
 }
 
 /* Whichever part of the mixture weighs most, the mean of what arrives times the cosine is the
- * irradiance: the densities are those by which directions are drawn. */
+ * irradiance, because the densities are those by which directions are drawn. */
 static void directions_toward_a_surface_bring_its_irradiance(void **state) {
     (void)state;
-    static shadow_points points; /* one, in every lane */
+    static shadow_points points; /* the same point in every lane */
     const float parts[][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 0.5f, 0.3f, 0.4f }, { 0 } };
     shadow_around around;
     color();

@@ -2,7 +2,7 @@
 /* Scenes that are truncated, damaged or malicious. */
 #include "tests/program/refused.h"
 
-/* The program must refuse the scene of this name in the folder. */
+/* Asserts that the program refuses the scene of this name in the folder. */
 static void assert_refused(const char *name, const char *expected) {
     char path[512];
     snprintf(path, sizeof path, "%s", in_folder(name));
@@ -74,7 +74,7 @@ static void what_is_no_scene_is_refused(void **state) {
     assert_refused("a\nname\x1b[31m", "does not exist");
 }
 
-/* A point and a line are no surface; the smallest triangle and one beside them are. */
+/* A point and a line are not surfaces; the smallest triangle, and one beside them, are. */
 static void triangles_without_an_area_are_no_scene(void **state) {
     (void)state;
     char path[512];
@@ -99,7 +99,7 @@ static void truncated_files_are_refused(void **state) {
         folder_write("truncated.gltf", whole, length);
         assert_refused("truncated.gltf", "is not valid JSON");
     }
-    /* the same as GLB: header, JSON chunk, BIN chunk */
+    /* the valid file as GLB: header, JSON chunk, BIN chunk */
     static const char json[] = HEAD MESH ACCESSOR VIEW "\"buffers\":[{\"byteLength\":36}]}   ";
     const uint32_t json_size = (uint32_t)(sizeof json - 1) & ~3u, all = 12 + 8 + json_size + 8 + 36;
     const uint32_t head[5] = { 0x46546c67, 2, all, json_size, 0x4e4f534a };
@@ -110,8 +110,7 @@ static void truncated_files_are_refused(void **state) {
     memcpy(glb + 20 + json_size, tail, sizeof tail);
     memcpy(glb + 28 + json_size, triangle, sizeof triangle);
     char path[512];
-    static const char *const names[] = { "whole.glb",
-                                         "named.gltf" }; /* its bytes tell what it is */
+    static const char *const names[] = { "whole.glb", "named.gltf" }; /* its bytes tell the type */
     for (int i = 0; i < 2; i++) {
         folder_write(names[i], glb, all);
         snprintf(path, sizeof path, "%s", in_folder(names[i]));
@@ -196,7 +195,7 @@ static void counts_beyond_the_data_are_refused(void **state) {
     }
 }
 
-/* With these nodes before the rest of a valid file. */
+/* Asserts that a valid file with these nodes before the others is refused. */
 static void assert_nodes_refused(const char *nodes, const char *expected) {
     const size_t room = strlen(nodes) + 1024;
     char *text = malloc(room);
@@ -220,7 +219,7 @@ static void impossible_nodes_are_refused(void **state) {
                          "another parent");
     assert_nodes_refused("\"nodes\":[{\"children\":[17]}]", "nodes[0].children[0]");
     assert_nodes_refused("\"nodes\":[{\"mesh\":4}]", "nodes[0].mesh");
-    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e999,1,1]}]", "nodes[0].scale[0]");
+    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e999,1,1]}]", "real number overflow");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[NaN,1,1]}]", "is not valid JSON");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e300,1e300,1]}]", "finite");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"translation\":[2e17,0,0]}]",
@@ -278,9 +277,9 @@ static void bombs_end_quickly(void **state) {
     assert_refused("bomb.gltf", "bomb.gltf: ");
 }
 
-/* The program must read the scene of this name in the folder, say in one line what it goes without,
- * and refuse it if it may leave out nothing. */
-static void assert_left_out(const char *name, const char *expected) {
+/* Asserts that the program reads the scene of this name in the folder, says in one line what is
+ * unsupported or missing, and refuses the scene if nothing may be. */
+static void assert_unsupported(const char *name, const char *expected) {
     char path[512], line[1200], text[4096], strict[700];
     snprintf(path, sizeof path, "%s", in_folder(name));
     const char *const arguments[] = { "lampion", "info", path, NULL };
@@ -309,22 +308,22 @@ static void a_scene_goes_without_textures_that_cannot_be(void **state) {
                                            13,   'I',  'H', 'D', 'R', 0,  0,  0x3e, 0x80, 0, 0,
                                            0x3e, 0x80, 8,   6,   0,   0,  0,  0,    0,    0, 0 };
     folder_write_text("textured.gltf", scene_text);
-    assert_left_out("textured.gltf", "t.png (1 missing file)");
+    assert_unsupported("textured.gltf", "t.png (1 missing file)");
     folder_write("t.png", absurd, sizeof absurd);
-    assert_left_out("textured.gltf", "t.png (1 undecodable image)");
+    assert_unsupported("textured.gltf", "t.png (1 undecodable image)");
     folder_write("t.png", large, sizeof large);
-    assert_left_out("textured.gltf", "t.png (1 undecodable image)");
+    assert_unsupported("textured.gltf", "t.png (1 undecodable image)");
     folder_write_text("t.png", "no image");
-    assert_left_out("textured.gltf", "t.png (1 undecodable image)");
+    assert_unsupported("textured.gltf", "t.png (1 undecodable image)");
     unlink(in_folder("t.png"));
     mkdir(in_folder("t.png"), 0700);
-    assert_left_out("textured.gltf", "t.png (1 unreadable file)");
+    assert_unsupported("textured.gltf", "t.png (1 unreadable file)");
     rmdir(in_folder("t.png"));
     folder_write_text("embedded.gltf", HEAD
                       "\"materials\":[{\"emissiveTexture\":{\"index\":0}}],"
                       "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":"
                       "\"data:image/png;base64,bm8gcGljdHVyZQ==\"}]," MESH ACCESSOR VIEW BUFFER);
-    assert_left_out("embedded.gltf", "image 0 (1 undecodable image)");
+    assert_unsupported("embedded.gltf", "image 0 (1 undecodable image)");
 }
 
 /* --- files outside ---------------------------------------------------------------------------- */
@@ -356,8 +355,8 @@ static void files_outside_the_folder_are_never_read(void **state) {
     assert_refused("gone.gltf", "\"gone.bin\", which does not exist");
 }
 
-/* What a scene can do without stays as unread: a stranger's texture, were it read, would be decoded
- * and white; it is named as it was written. */
+/* What a scene can do without is reported as unread, under the name in the file: a stranger's
+ * texture, if it were read, would be decoded and white. */
 static void a_scene_goes_without_files_outside_the_folder(void **state) {
     (void)state;
     static const char *const names[] = {
@@ -374,14 +373,14 @@ static void a_scene_goes_without_files_outside_the_folder(void **state) {
         snprintf(text, sizeof text, "newmtl m\nKd 0.25 0.5 0.75\nmap_Kd %s\n", names[i]);
         folder_write_text("room/m.mtl", text);
         snprintf(expected, sizeof expected, "%s (1 file outside the folder)", names[i]);
-        assert_left_out("room/outside.obj", expected);
+        assert_unsupported("room/outside.obj", expected);
     }
     assert_int_equal(symlink("../t.png", in_folder("room/link.png")), 0);
     folder_write_text("room/m.mtl", "newmtl m\nKd 0.25 0.5 0.75\nmap_Kd link.png\n");
-    assert_left_out("room/outside.obj", "link.png (1 unreadable file)");
+    assert_unsupported("room/outside.obj", "link.png (1 unreadable file)");
     folder_write_text("room/outside.obj", "mtllib ../secret.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
                                           "f 1 2 3\n");
-    assert_left_out("room/outside.obj", "../secret.mtl (1 file outside the folder)");
+    assert_unsupported("room/outside.obj", "../secret.mtl (1 file outside the folder)");
 }
 
 static int make_folder(void **state) {

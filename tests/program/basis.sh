@@ -10,7 +10,7 @@ set -eu
 "$PROGRAM" basis --bands 12 --size 480x260 -o "$WORK/basis.exr" || fail "12 bands"
 [ -s "$WORK/basis.exr" ] || fail "no EXR"
 
-# refuse STATUS ARGUMENT…: one line, and nothing written.
+# refuse STATUS ARGUMENT…: the command must print one line, and write nothing.
 refuse() {
     expected=$1
     shift

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion bench: which rows its options choose, and that they are JSON. No time is judged. */
+/* lampion bench: its options choose rows, which are JSON. No time is judged. */
 #include "tests/program/folder.h"
 
-#include <cjson/cJSON.h>
+#include <jansson.h>
 #include <sys/wait.h>
 
-/* A triangle; its name wants escapes in JSON. */
+/* A triangle, whose name needs escapes in JSON. */
 #define OWN_SCENE "a\"b.obj"
 #define TINY      "--json --size 16x16 "
 
-/* Runs `lampion bench` of cpu or gpu with arguments for the shell, $F in them the folder; its
- * status. */
+/* Runs `lampion bench` of cpu or gpu with arguments for the shell, in which $F is the folder;
+ * returns its status. */
 static int bench_of(const char *what, const char *arguments) {
     char command[1024];
     snprintf(command, sizeof command, "F='%s'; \"$LAMPION_PROGRAM\" bench %s %s >$F/out 2>$F/err",
@@ -35,8 +35,8 @@ static char *read_output(const char *name) {
     return text;
 }
 
-/* The whole output; its rows have every key. */
-static cJSON *rows_of(const char *arguments) {
+/* Returns the whole output; its rows have every key. */
+static json_t *rows_of(const char *arguments) {
     static const char *const numbers[] = {
         "bands",
         "lights",
@@ -54,69 +54,71 @@ static cJSON *rows_of(const char *arguments) {
     if (bench(arguments) != 0)
         fail_msg("%s: %s", arguments, read_output("err"));
     char *text = read_output("out");
-    cJSON *root = cJSON_ParseWithOpts(text, NULL, true);
+    json_t *root = json_loads(text, 0, NULL);
     if (!root)
         fail_msg("%s: no JSON: %s", arguments, text);
     free(text);
-    const cJSON *row;
-    cJSON_ArrayForEach(row, cJSON_GetObjectItem(root, "rows")) {
+    json_t *rows = json_object_get(root, "rows"), *row;
+    size_t number;
+    json_array_foreach (rows, number, row) {
         for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-            assert_true(cJSON_IsNumber(cJSON_GetObjectItem(row, numbers[i])));
-        assert_true(cJSON_GetObjectItem(row, "ms")->valuedouble > 0);
-        const int frames = cJSON_GetObjectItem(row, "frames")->valueint;
+            assert_true(json_is_number(json_object_get(row, numbers[i])));
+        assert_true(json_number_value(json_object_get(row, "ms")) > 0);
+        const double frames = json_number_value(json_object_get(row, "frames"));
         assert_true(frames >= 1 && frames <= 9);
-        assert_non_null(cJSON_GetObjectItem(row, "vs_paper"));
+        assert_non_null(json_object_get(row, "vs_paper"));
     }
     return root;
 }
 
-static int count_rows(const cJSON *root) {
-    return cJSON_GetArraySize(cJSON_GetObjectItem(root, "rows"));
+static int count_rows(json_t *root) {
+    return (int)json_array_size(json_object_get(root, "rows"));
 }
 
-/* How many values a key has in all rows, none of them twice in a row of rows. */
-static int count_values(const cJSON *root, const char *key) {
+/* Counts the values that a key has in all rows; rows with the same value follow one another. */
+static int count_values(json_t *root, const char *key) {
     int count = 0;
-    const cJSON *row, *before = NULL;
-    cJSON_ArrayForEach(row, cJSON_GetObjectItem(root, "rows")) {
-        const cJSON *value = cJSON_GetObjectItem(row, key);
-        count += !before || !cJSON_Compare(value, before, true);
+    json_t *rows = json_object_get(root, "rows"), *row, *before = NULL;
+    size_t i;
+    json_array_foreach (rows, i, row) {
+        json_t *value = json_object_get(row, key);
+        count += !before || !json_equal(value, before);
         before = value;
     }
     return count;
 }
 
-static const cJSON *row_at(const cJSON *root, int row) {
-    return cJSON_GetArrayItem(cJSON_GetObjectItem(root, "rows"), row);
+static json_t *row_at(json_t *root, int row) {
+    return json_array_get(json_object_get(root, "rows"), (size_t)row);
 }
 
-static double number_at(const cJSON *root, int row, const char *key) {
-    return cJSON_GetObjectItem(row_at(root, row), key)->valuedouble;
+static double number_at(json_t *root, int row, const char *key) {
+    return json_number_value(json_object_get(row_at(root, row), key));
 }
 
-static const char *text_at(const cJSON *root, int row, const char *key) {
-    return cJSON_GetObjectItem(row_at(root, row), key)->valuestring;
+static const char *text_at(json_t *root, int row, const char *key) {
+    return json_string_value(json_object_get(row_at(root, row), key));
 }
 
 static void a_setting_has_a_row_of_each_method(void **state) {
     (void)state;
-    cJSON *root = rows_of(TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2");
+    json_t *root = rows_of(TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2");
     assert_int_equal(count_rows(root), 9);
     assert_string_equal(text_at(root, 0, "scene"), in_folder(OWN_SCENE));
     assert_string_equal(text_at(root, 0, "method"), "paper");
     assert_true(number_at(root, 0, "vs_paper") == 1);
     assert_true(number_at(root, 8, "bands") == 3 && number_at(root, 8, "lights") == 2);
-    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(root, "materials")), 0);
-    cJSON_Delete(root);
+    assert_int_equal(json_array_size(json_object_get(root, "materials")), 0);
+    json_decref(root);
 }
 
-/* Paper and tabulated Z do not shade them; the rest holds their tables, too. */
+/* Paper and tabulated Z do not shade materials; the other methods include their tables. */
 static void materials_are_in_the_rows(void **state) {
     (void)state;
     const char *const chosen = TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2 --device cpu ";
     char arguments[256];
     snprintf(arguments, sizeof arguments, "%s--material 'wall=phong:5'", chosen);
-    cJSON *without = rows_of(chosen), *with = rows_of(arguments);
+    json_t *without = rows_of(chosen), *with = rows_of(arguments);
     assert_int_equal(count_rows(without), 3);
     assert_int_equal(count_rows(with), 3);
     for (int i = 0; i < 3; i++) {
@@ -125,19 +127,19 @@ static void materials_are_in_the_rows(void **state) {
         assert_int_equal(number_at(with, i, "lobes_ms") > 0, i == 1);
         assert_int_equal(number_at(with, i, "preintegrated_ms") > 0, i == 1);
     }
-    assert_string_equal(cJSON_GetArrayItem(cJSON_GetObjectItem(with, "materials"), 0)->valuestring,
+    assert_string_equal(json_string_value(json_array_get(json_object_get(with, "materials"), 0)),
                         "wall=phong:5");
-    cJSON_Delete(without);
-    cJSON_Delete(with);
+    json_decref(without);
+    json_decref(with);
     with = rows_of(TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2 --device gpu --material "
                         "'wall=phong:5'");
     assert_int_equal(count_rows(with), 4);
     assert_string_equal(text_at(with, 0, "method"), "zonal");
-    assert_true(cJSON_IsNull(cJSON_GetObjectItem(row_at(with, 0), "vs_paper")));
-    cJSON_Delete(with);
+    assert_true(json_is_null(json_object_get(row_at(with, 0), "vs_paper")));
+    json_decref(with);
 }
 
-/* The short selection, and what --full does not find fixed. */
+/* The short selection, and the rows that --full adds where options do not fix them. */
 static void options_fix_what_the_rows_are_of(void **state) {
     static const struct {
         const char *options;
@@ -157,7 +159,7 @@ static void options_fix_what_the_rows_are_of(void **state) {
         char arguments[256];
         snprintf(arguments, sizeof arguments, TINY "--device cpu --method zonal %s",
                  choices[i].options);
-        cJSON *root = rows_of(arguments);
+        json_t *root = rows_of(arguments);
         if (count_rows(root) != choices[i].rows ||
             count_values(root, "scene") != choices[i].scenes ||
             count_values(root, "bands") != choices[i].bands ||
@@ -165,24 +167,25 @@ static void options_fix_what_the_rows_are_of(void **state) {
             fail_msg("%s: %d rows of %d scenes, %d bands, %d lights", choices[i].options,
                      count_rows(root), count_values(root, "scene"), count_values(root, "bands"),
                      count_values(root, "lights"));
-        cJSON_Delete(root);
+        json_decref(root);
     }
 }
 
-/* The field, and what it is compared with, for all numbers; in the end a line for each. */
+/* Rows hold the field, and what it is compared with, for all numbers of lights; each row ends with
+ * a line. */
 static void several_numbers_of_lights_make_a_table_of_whole_frames(void **state) {
     (void)state;
     const char *const list = "--size 16x16 --scene $F/a\\\"b.obj --device cpu --bands 3 "
                              "--lights 3,20";
     char json[256];
     snprintf(json, sizeof json, "--json %s", list);
-    cJSON *root = rows_of(json);
+    json_t *root = rows_of(json);
     const char *const methods[] = { "zonal", "field", "zonal", "field", "preintegrated" };
     assert_int_equal(count_rows(root), 6);
     for (int i = 0; i < 5; i++)
         assert_string_equal(text_at(root, i, "method"), methods[i]);
     assert_true(number_at(root, 2, "lights") == 20 && number_at(root, 4, "lights") == 3);
-    cJSON_Delete(root);
+    json_decref(root);
     assert_int_equal(bench(list), 0);
     char *text = read_output("out"), *table = strstr(text, "\nwhole frames, 3 bands, 16x16: ms");
     assert_non_null(table);
@@ -190,22 +193,22 @@ static void several_numbers_of_lights_make_a_table_of_whole_frames(void **state)
     free(text);
 }
 
-/* The paper's 8 bands and 30 lights; what is left out is said. */
+/* With the paper's 8 bands and 30 lights; the rows left out are reported. */
 static void the_most_telling_rows_come_first_while_there_is_time(void **state) {
     (void)state;
-    cJSON *all = rows_of(TINY "--scene $F/a\\\"b.obj --time 1");
+    json_t *all = rows_of(TINY "--scene $F/a\\\"b.obj --time 1");
     char *said = read_output("err");
     const int count = count_rows(all);
     assert_true(count >= 1);
     assert_true(number_at(all, 0, "bands") == 8 && number_at(all, 0, "lights") == 30);
     assert_string_equal(text_at(all, 0, "method"), "paper");
-    if (count < 69) /* all of them */
+    if (count < 69) /* all rows */
         assert_non_null(strstr(said, "rows left out for want of time"));
     free(said);
-    cJSON_Delete(all);
+    json_decref(all);
 }
 
-/* Of as many bands as fields take. */
+/* The rows have the most bands that fields take. */
 static void fields_have_rows_of_updates_and_of_points(void **state) {
     (void)state;
     static const char *const kernels[] = { "field-update", "shade-field" };
@@ -216,36 +219,38 @@ static void fields_have_rows_of_updates_and_of_points(void **state) {
                  i % 2 ? 11 : 3);
         assert_int_equal(bench_of("cpu", arguments), 0);
         char *text = read_output("out");
-        cJSON *root = cJSON_ParseWithOpts(text, NULL, true);
+        json_t *root = json_loads(text, 0, NULL);
         assert_non_null(root);
         assert_int_equal(count_rows(root), i % 2 ? 0 : 1);
-        cJSON_Delete(root);
+        json_decref(root);
         free(text);
     }
 }
 
-/* Kernels that do little but store, of 10 bands: the first cache, the second and memory. */
+/* Kernels that do little but store, of 10 bands, have outputs for the first-level cache, the
+ * second-level cache and memory. */
 static void rows_say_where_their_outputs_fit(void **state) {
     (void)state;
     static const char *const sets[] = { "L1", "L2", "memory" };
     assert_int_equal(bench_of("cpu", "--json --kernel basis --bands 10 --threads 1 --cpu-mask 2"),
                      0);
     char *text = read_output("out");
-    cJSON *root = cJSON_ParseWithOpts(text, NULL, true);
+    json_t *root = json_loads(text, 0, NULL);
     assert_non_null(root);
     assert_int_equal(count_rows(root), 6);
-    const cJSON *row;
+    json_t *rows = json_object_get(root, "rows"), *row;
+    size_t number;
     int i = 0;
-    cJSON_ArrayForEach(row, cJSON_GetObjectItem(root, "rows")) {
-        const cJSON *set = cJSON_GetObjectItem(row, "working_set");
-        assert_string_equal(cJSON_GetStringValue(set), sets[i++ % 3]);
-        assert_true(cJSON_GetObjectItem(row, "stores_ns")->valuedouble > 0);
+    json_array_foreach (rows, number, row) {
+        json_t *set = json_object_get(row, "working_set");
+        assert_string_equal(json_string_value(set), sets[i++ % 3]);
+        assert_true(json_number_value(json_object_get(row, "stores_ns")) > 0);
     }
-    cJSON_Delete(root);
+    json_decref(root);
     free(text);
 }
 
-/* Against what was not measured there is no ratio. */
+/* A kernel without a scalar row has no ratio. */
 static void kernels_without_scalar_rows_have_no_ratio_to_them(void **state) {
     (void)state;
     for (int scalar = 0; scalar < 2; scalar++) {
@@ -254,15 +259,16 @@ static void kernels_without_scalar_rows_have_no_ratio_to_them(void **state) {
                  "--json --kernel zonal --bands 3 --threads 1 --cpu-mask %d", scalar ? 1 : 14);
         assert_int_equal(bench_of("cpu", arguments), 0);
         char *text = read_output("out");
-        cJSON *root = cJSON_ParseWithOpts(text, NULL, true);
+        json_t *root = json_loads(text, 0, NULL);
         assert_non_null(root);
-        const cJSON *row;
-        cJSON_ArrayForEach(row, cJSON_GetObjectItem(root, "rows")) {
-            const cJSON *ratio = cJSON_GetObjectItem(row, "vs_scalar");
-            assert_true(scalar ? cJSON_IsNumber(ratio) : cJSON_IsNull(ratio));
+        json_t *rows = json_object_get(root, "rows"), *row;
+        size_t number;
+        json_array_foreach (rows, number, row) {
+            json_t *ratio = json_object_get(row, "vs_scalar");
+            assert_true(scalar ? json_is_number(ratio) : json_is_null(ratio));
         }
         assert_true(!scalar || count_rows(root) == 2);
-        cJSON_Delete(root);
+        json_decref(root);
         free(text);
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes as a child that was taken over may hand them back: none is believed that says of itself
- * what is not so. */
+/* Scenes as a child process that was taken over may return them: none whose statements about itself
+ * are false is accepted. */
 #include "app/scene/builder.h"
 #include "tests/oracle/check.h"
 
@@ -40,7 +40,7 @@ static int free_builder(void **state) {
 static bool is_valid(void) {
     void *block;
     size_t size;
-    cli_error error;
+    base_error error;
     assert_true(builder_pack(&builder, &block, &size));
     const bool valid = blob_validate(block, size, false, "scene", &error);
     free(block);
@@ -62,7 +62,7 @@ static void positions_are_in_reach(void **state) {
     assert_false(is_valid());
 }
 
-/* Shading and rays take normals and tangents as they are. */
+/* Shading and rays take normals and tangents as they are, so they must be unit. */
 static void normals_and_tangents_are_unit(void **state) {
     (void)state;
     scene_vertex *corner = builder_items(&builder, BLOB_VERTICES);
@@ -124,20 +124,20 @@ static void instances_place_meshes_that_are_there(void **state) {
                 *number = right;
             }
     assert_true(is_valid());
-    /* Flattened, and with that without normals. */
+    /* The matrix flattens the mesh, and leaves it without normals. */
     instance->world_from_mesh[1][1] = 0;
     assert_false(is_valid());
     instance->world_from_mesh[1][1] = -1;
     assert_true(is_valid());
-    /* The floor's corners are 3 away at most. */
+    /* The floor's corners are at most 3 away. */
     instance->world_from_mesh[0][3] = 0.9f * LMP_LENGTH_MAX;
     assert_true(is_valid());
     instance->world_from_mesh[0][3] = 1.1f * LMP_LENGTH_MAX;
     assert_false(is_valid());
 }
 
-/* Their texels follow each other, each from a page of its own on: an image that claimed those of
- * another would be decoded over it. */
+/* Texels follow each other, each from a page of its own on: an image that claimed another's bytes
+ * would be decoded over it. */
 static void images_have_bytes_and_texels_of_their_own(void **state) {
     (void)state;
     scene_image *images = builder_append(&builder, BLOB_IMAGES, 2);

@@ -6,7 +6,7 @@ set -eu
 export XDG_CACHE_HOME="$WORK/cache"
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 0; }
 
-# png WIDTH HEIGHT FILE: black, 8 bits, deflated as well as can be
+# png WIDTH HEIGHT FILE: writes a black image of 8 bits, deflated as well as possible.
 png() {
     python3 - "$@" <<'PY'
 import struct, sys, zlib
@@ -29,11 +29,11 @@ within() {
     (ulimit -v "$room" && MALLOC_ARENA_MAX=1 exec "$@") >"$WORK/out" 2>"$WORK/err"
 }
 
-# sanitizers take all addresses there are
+# Sanitizers take all addresses there are.
 sanitized=no
 grep -q 'LAMPION_SANITIZE:STRING=..*' "$BUILD/CMakeCache.txt" && sanitized=yes
 
-# the least that the program takes: of an image of one pixel, found by halves
+# The least memory that the program takes, for an image of one pixel, is found by bisection.
 png 1 1 "$WORK/one.png"
 "$PROGRAM" compare "$WORK/one.png" "$WORK/one.png" >/dev/null || fail "an image of one pixel is not compared"
 if [ $sanitized = no ]; then
@@ -42,12 +42,12 @@ if [ $sanitized = no ]; then
         middle=$(((low + least) / 2))
         if within $middle "$PROGRAM" compare "$WORK/one.png" "$WORK/one.png"; then least=$middle; else low=$middle; fi
     done
-    # 1024² pixels take 80 bytes each, as the help says, and not twice as much
+    # 1024² pixels take 80 bytes each, as the help says, and not twice as much.
     "$PROGRAM" compare --help | tr -s ' \n' ' ' | grep -q 'take 80 bytes per pixel' || fail "the help does not say what a pixel takes"
     png 1024 1024 "$WORK/many.png"
     within $((least + 80 * 1024 + 8192)) "$PROGRAM" compare "$WORK/many.png" "$WORK/many.png" ||
         fail "more than 80 bytes a pixel: $(cat "$WORK/err")"
-    # 8192² pixels in some kilobytes are refused by their number, before anything is made for them
+    # 8192² pixels in some kilobytes are refused by their number, before anything is made for them.
     png 8192 8192 "$WORK/bomb.png"
     for pair in "bomb one" "one bomb"; do
         if within $((least + 8192)) "$PROGRAM" compare "$WORK/${pair% *}.png" "$WORK/${pair#* }.png"; then
@@ -58,30 +58,36 @@ if [ $sanitized = no ]; then
     done
 fi
 
-# --max-pixels is the number of pixels that are allowed, and no other
+# --max-pixels is exactly the number of pixels that are allowed.
 png 30 20 "$WORK/some.png"
 "$PROGRAM" compare "$WORK/some.png" "$WORK/some.png" --max-pixels 600 >/dev/null || fail "600 of 600 pixels are refused"
 ! "$PROGRAM" compare "$WORK/some.png" "$WORK/some.png" --max-pixels 599 2>"$WORK/err" || fail "600 pixels pass for 599"
 grep -qF '(599 pixels; see --max-pixels)' "$WORK/err" || fail "600 of 599 pixels: $(cat "$WORK/err")"
 
-# tables that no buffer of the GPU holds are refused before they are made, which takes minutes: one that was made
-# would lie in the cache
+# Tables that no buffer of the GPU holds are refused before they are made, which takes minutes: a table that was made
+# would be in the cache.
 if "$PROGRAM" render builtin:ball --device gpu --method coefficients --bands 20 --material test_material=ggx:0.5x0.4 \
     --size 16x16 -o "$WORK/none.png" 2>"$WORK/err"; then
     fail "20 bands of an anisotropic material fit the GPU"
 fi
-grep -q 'the tables of the materials are too large (fewer --bands)' "$WORK/err" || fail "the tables: $(cat "$WORK/err")"
-[ -z "$(find "$WORK/cache" -name '*.lmpt')" ] || fail "the table was made before it was refused"
+too_large='the tables of the materials are too large (fewer --bands)'
+grep -qF "$too_large" "$WORK/err" || fail "the tables: $(cat "$WORK/err")"
+if "$PROGRAM" bench gpu --scene builtin:ball --device gpu --method coefficients --bands 20 --size 16x16 --lights 1 \
+    --material test_material=ggx:0.5x0.4 >/dev/null 2>"$WORK/err"; then
+    fail "20 bands of an anisotropic material are timed on the GPU"
+fi
+grep -qF "$too_large" "$WORK/err" || fail "the tables of bench: $(cat "$WORK/err")"
+[ -z "$(find "$WORK/cache" -name '*.lmpt')" ] || fail "a table was made before it was refused"
 
-# what takes minutes tells how much of it is done, and how long the rest takes, to who sits there; who stops it has
-# no part of it
+# A step that takes minutes reports its progress and the time left on a terminal; when it is stopped, it leaves no
+# partial result.
 command -v script >/dev/null || exit 0
 for pass in bake info; do
     set -- "$PROGRAM" brdf $pass ggx:0.001x0.002
     [ $pass = info ] || set -- "$@" -o "$WORK/mirror.lmpt"
     rm -f "$WORK/bar" "$WORK/status"
     mkfifo "$WORK/bar"
-    # the pipe ends the wait: no time is asserted
+    # The pipe ends the wait, so no time is asserted.
     TERM=xterm script -qfec "echo \$\$ >'$WORK/pid'; exec $*" "$WORK/log" </dev/null >"$WORK/bar" 2>&1 &
     shell=$!
     tr '\r' '\n' <"$WORK/bar" | while IFS= read -r line; do

@@ -4,7 +4,7 @@ set -eu
 . tests/checks/common.sh
 export XDG_CACHE_HOME="$WORK/cache"
 
-# the same values from a material and from files of it
+# A material and its files must give the same values.
 cat >"$WORK/pairs" <<'END'
 wi_x,wi_y,wi_z,wo_x,wo_y,wo_z
 0,0,1,0,0.6,0.8
@@ -22,7 +22,7 @@ tail -n +2 "$WORK/pairs" | "$PROGRAM" brdf eval lambert:0.5,0.25,1 | diff "$WORK
 "$PROGRAM" brdf eval "$WORK/l.binary" <"$WORK/pairs" | diff "$WORK/expected" - ||
     fail "values through a MERL file"
 
-# tables: the same from the cache, and what is in them
+# Tables must be the same from the cache, and hold what was asked for.
 "$PROGRAM" brdf bake phong:20 -o "$WORK/a.lmpt" --bands 6 --views 8
 "$PROGRAM" brdf bake phong:20 -o "$WORK/b.lmpt" --bands 6 --views 8
 cmp "$WORK/a.lmpt" "$WORK/b.lmpt" || fail "a table from the cache differs"
@@ -32,7 +32,7 @@ cmp "$WORK/a.lmpt" "$WORK/b.lmpt" || fail "a table from the cache differs"
 [ -s "$WORK/plot.png" ] || fail "no plot"
 [ "$("$PROGRAM" brdf list | wc -l)" -eq 100 ] || fail "not 100 SGD materials"
 
-# refusals: one line that names the file, exit 1 (usage 2), no output left behind
+# Refusals print one line that names the file, exit with 1 (usage 2), and leave no output behind.
 refuse() {
     status=$1 text=$2
     shift 2

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The cache: what is in it is believed only if it is what was stored, under its name, by this user;
- * and whatever is there, or cannot be, nothing waits and nothing fails. */
-#include "app/file/file.h"
+/* The cache returns an entry only if it is what was stored, under its name, by this user; and
+ * whatever is there, or cannot be, nothing waits and nothing fails. */
+#include "app/base/error.h"
+#include "app/base/file.h"
+#include "app/base/file_cache.h"
+#include "app/base/file_hash.h"
+#include "app/base/file_writer.h"
 #include "tests/program/folder.h"
 
 #include <errno.h>
@@ -56,7 +60,7 @@ static void an_entry_under_another_name_is_none(void **state) {
 
 static unsigned char *read_entry(const char *name, size_t *size) {
     void *bytes;
-    cli_error error;
+    base_error error;
     assert_true(file_read(entry(name), 1 << 20, &bytes, size, &error));
     return bytes;
 }
@@ -90,7 +94,7 @@ static void a_damaged_entry_is_none(void **state) {
     printf("tried: %zu damaged entries of the cache\n", tried);
 }
 
-/* Its checksum is that of what it says: the version alone is another. */
+/* The checksum fits the changed contents, so that only the version is wrong. */
 static void an_entry_of_another_version_is_none(void **state) {
     (void)state;
     enum { VERSION = 8, ABOVE = 88 }; /* the version's offset, and bytes before the checksum */
@@ -118,7 +122,7 @@ static void what_is_no_file_of_ones_own_is_none(void **state) {
     assert_int_equal(symlink(target, entry("link")), 0);
     assert_false(holds("link", first));
     assert_int_equal(mkfifo(entry("fifo"), 0600), 0);
-    assert_false(holds("fifo", first)); /* nor does it wait for a writer */
+    assert_false(holds("fifo", first)); /* nor does the cache wait for a writer */
     assert_int_equal(mkdir(entry("folder"), 0700), 0);
     assert_false(holds("folder", first));
     if (geteuid() == 0) {
@@ -133,8 +137,8 @@ static bool exists(const char *name) {
     return access(entry(name), F_OK) == 0;
 }
 
-/* Files by names that entries have too, one of them another entry's bytes: nobody stored them here,
- * and neither the limit nor the user's wish to clear the cache is about them. */
+/* Files with names like entries, one of them with another entry's bytes: nobody stored them here,
+ * so neither the limit nor the user's request to clear the cache concerns them. */
 static void only_entries_are_counted_and_removed(void **state) {
     (void)state;
     static const char *const others[] = { "notes.txt", "scene-0123456789abcdef0123456789abcdef",
@@ -228,7 +232,7 @@ static void two_writers_leave_one_s_bytes(void **state) {
 
 static bool renamed_locked;
 
-/* The program's, which it calls in place of the system's. */
+/* Replaces the system's function, for the program. */
 int rename(const char *from, const char *to) {
     const int fd = open(from, O_RDONLY | O_CLOEXEC);
     renamed_locked = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
@@ -237,10 +241,10 @@ int rename(const char *from, const char *to) {
     return renameat(AT_FDCWD, from, AT_FDCWD, to);
 }
 
-/* Another machine, or container, tells by the lock alone that whoever writes is still there. */
+/* Another machine, or container, learns only from the lock that the writer still exists. */
 static void what_is_not_yet_renamed_is_locked(void **state) {
     (void)state;
-    cli_error error;
+    base_error error;
     assert_true(file_write_whole(in_folder("whole"), first, SIZE, &error));
     assert_true(renamed_locked);
     const int fd = open(in_folder("whole"), O_RDONLY | O_CLOEXEC);

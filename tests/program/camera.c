@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The camera of a scene, of the command line, or one that frames what has none. */
+/* The camera comes from the scene, from the command line, or frames a scene that has none. */
 #include "app/scene/scene.h"
 
 #include "tests/program/folder.h"
@@ -20,13 +20,13 @@ static void cameras_out_of_reach_are_refused(void **state) {
     const scene_camera_options options = { .eye = { 1e30, 0, 0 }, .eye_given = true };
     const int size[2] = { 16, 9 };
     scene_camera camera;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     assert_false(scene_place_camera(&s, &options, size, &camera, &error));
     assert_non_null(strstr(error.text, "has a camera beyond 1e17"));
     scene_free(&s);
 }
 
-/* How far what the camera sees goes to the right, left, top and bottom, 1 at the image's edges. */
+/* Measures how far the scene reaches to the right, left, top and bottom, 1 at the image's edges. */
 static void measure(const scene *s, const scene_camera *camera, double aspect, double sides[4]) {
     double f[3], r[3], u[3], length = 0;
     for (int i = 0; i < 4; i++)
@@ -85,8 +85,8 @@ static void a_narrow_image_widens_the_camera_s_view(void **state) {
     scene s = load("builtin:balls");
     const float aspect = s.cameras[0].aspect, wide = s.cameras[0].fov;
     CHECK_NEAR(wide, scene_default_camera(&s, 2.0f * aspect).fov, 0.0);
-    const double half = 0.5 * (double)scene_default_camera(&s, 0.5f * aspect).fov;
-    CHECK_NEAR(2.0 * tan(0.5 * (double)wide), tan(half), 1e-5);
+    const double half_fov = 0.5 * (double)scene_default_camera(&s, 0.5f * aspect).fov;
+    CHECK_NEAR(2.0 * tan(0.5 * (double)wide), tan(half_fov), 1e-5);
     scene_free(&s);
 }
 
@@ -96,7 +96,7 @@ static void the_command_line_chooses_an_angle_or_a_height(void **state) {
     const int size[2] = { 16, 9 };
     scene_camera_options options = { .height = 3, .height_given = true };
     scene_camera camera;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     assert_true(scene_place_camera(&s, &options, size, &camera, &error));
     assert_true(scene_camera_height(&camera, 7) == 3);
     options = (scene_camera_options) { .fov = 60, .fov_given = true };

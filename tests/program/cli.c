@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Option tables, strict numbers, one-line errors: app/cli. */
-#include "app/cli/cli.h"
-#include "app/cli/printable.h"
+/* Option tables, strict numbers, one-line errors: app/base/cli.h. */
+#include "app/base/cli.h"
+#include "app/base/printable.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -200,7 +200,7 @@ static void wrong_values_are_refused_in_one_line(void **state) {
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         const outcome o = PARSE(wrong[i][0]);
         assert_false(o.go_on);
-        assert_int_equal(o.status, CLI_USAGE);
+        assert_int_equal(o.status, BASE_USAGE);
         if (!strstr(o.complaint, wrong[i][1]))
             fail_msg("%s: %s", wrong[i][0], o.complaint);
         assert_ptr_equal(strchr(o.complaint, '\n'), o.complaint + strlen(o.complaint) - 1);
@@ -210,7 +210,7 @@ static void wrong_values_are_refused_in_one_line(void **state) {
 static void a_forgotten_value_does_not_eat_the_next_option(void **state) {
     (void)state;
     const outcome o = PARSE("-o", "--bands", "3");
-    assert_int_equal(o.status, CLI_USAGE);
+    assert_int_equal(o.status, BASE_USAGE);
     assert_non_null(strstr(o.complaint, "--output needs a value: --output FILE"));
 }
 
@@ -228,7 +228,7 @@ static void help_shows_defaults_ranges_and_examples(void **state) {
     (void)state;
     const outcome o = PARSE("--bands", "3", "--nonsense", "--help");
     assert_false(o.go_on);
-    assert_int_equal(o.status, CLI_OK);
+    assert_int_equal(o.status, BASE_OK);
     static const char *const expected[] = {
         "lampion draw: draws", "lampion draw [OPTION…] SCENE",
         "-n, --bands N",       "1 to 128 [8]",
@@ -250,8 +250,8 @@ static void what_a_terminal_obeys_is_not_printable(void **state) {
                                          "\xC2\xA0",
                                          "\xED\x9F\xBF",
                                          "\xEE\x80\x80" };
-    /* controls; C1 as UTF-8 and as a byte; turns of direction; cut, overlong, surrogate, past all
-     */
+    /* controls; C1 as UTF-8 and as a byte; changes of direction; truncated, overlong, surrogate,
+     * out of range */
     static const char *const obeyed[] = {
         "\n",           "\x1b",
         "\x7f",         "\xC2\x9B",
@@ -263,22 +263,22 @@ static void what_a_terminal_obeys_is_not_printable(void **state) {
         "\xFF",
     };
     for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
-        assert_int_equal(cli_printable(shown[i]), strlen(shown[i]));
+        assert_int_equal(printable_length(shown[i]), strlen(shown[i]));
     for (size_t i = 0; i < sizeof obeyed / sizeof *obeyed; i++)
-        assert_int_equal(cli_printable(obeyed[i]), 0);
+        assert_int_equal(printable_length(obeyed[i]), 0);
 }
 
 static void errors_are_one_line_free_of_control_characters(void **state) {
     (void)state;
-    cli_error error;
-    assert_false(cli_fail(&error, "a\nb\x1b[2J\xC2\x9B.gltf", "is %s (try %d)", "bad", 3));
+    base_error error;
+    assert_false(base_fail(&error, "a\nb\x1b[2J\xC2\x9B.gltf", "is %s (try %d)", "bad", 3));
     assert_string_equal(error.text, "a?b?[2J??.gltf: is bad (try 3)");
     char name[5000];
     memset(name, 'n', sizeof name);
     name[sizeof name - 1] = '\0';
-    cli_fail(&error, name, "is empty");
+    base_fail(&error, name, "is empty");
     assert_non_null(strstr(error.text, ": is empty"));
-    cli_fail(&error, NULL, "%s", name);
+    base_fail(&error, NULL, "%s", name);
     assert_int_equal(strlen(error.text), sizeof error.text - 1);
 }
 

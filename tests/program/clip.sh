@@ -5,7 +5,7 @@ set -eu
 . tests/checks/common.sh
 export ASAN_OPTIONS=detect_leaks=0 # GL drivers leak at exit
 
-# scene NODES CAMERA: glowing squares of three colors and the camera, 5 before the middle one
+# scene NODES CAMERA: writes glowing squares of three colors and the camera, 5 before the middle one.
 scene() {
     cat <<JSON
 {"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[$1,3]}],
@@ -23,7 +23,7 @@ scene() {
 JSON
 }
 
-# draw NAME: the scene by every device, without its light, which the squares are
+# draw NAME: draws the scene by every device, without its light, which is the squares.
 draw() {
     for device in cpu gpu; do
         "$PROGRAM" render "$WORK/$1.gltf" --size 48x32 --bands 3 --environment none --lights "$WORK/none.json" \

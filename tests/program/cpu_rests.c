@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The CPU's device keeps what a resting camera sees: frames that were drawn before change nothing.
+/* The CPU's device keeps what a resting camera sees: frames drawn before must not change the image.
  */
-#include "app/render/renderer.h"
+#include "app/render/renderer/renderer.h"
 
 #include "tests/oracle/check.h"
 
@@ -27,15 +27,15 @@ static render_frame frame_of(const fixture *f, const scene_light *lights, size_t
 }
 
 static void draw(any_renderer *renderer, const render_frame *frame, image *pixels) {
-    cli_error error = { "" };
+    base_error error = { "" };
     if (!renderer_draw(renderer, frame, NULL, &error) ||
         !renderer_read_image(renderer, pixels, &error))
         fail_msg("%s", error.text);
 }
 
-/* What a renderer that has drawn nothing yet makes of the frame. */
-static void draw_anew(const fixture *f, render_frame frame, image *pixels) {
-    cli_error error = { "" };
+/* Draws the frame by a renderer that has drawn nothing yet. */
+static void draw_recomputed(const fixture *f, render_frame frame, image *pixels) {
+    base_error error = { "" };
     any_renderer *fresh = renderer_create(&f->device, &error);
     assert_non_null(fresh);
     frame.keep_geometry = false;
@@ -43,20 +43,22 @@ static void draw_anew(const fixture *f, render_frame frame, image *pixels) {
     renderer_destroy(fresh);
 }
 
-static void expect_as_anew(const fixture *f, any_renderer *renderer, const render_frame *frame) {
-    image again, anew;
+static void expect_as_recomputed(const fixture *f, any_renderer *renderer,
+                                 const render_frame *frame) {
+    image again, recomputed;
     draw(renderer, frame, &again);
-    draw_anew(f, *frame, &anew);
-    assert_memory_equal(again.rgb, anew.rgb,
-                        3 * (size_t)frame->width * (size_t)frame->height * sizeof *anew.rgb);
+    draw_recomputed(f, *frame, &recomputed);
+    assert_memory_equal(again.rgb, recomputed.rgb,
+                        3 * (size_t)frame->width * (size_t)frame->height * sizeof *recomputed.rgb);
     image_free(&again);
-    image_free(&anew);
+    image_free(&recomputed);
 }
 
-/* In front of the middle of the view, where it hides surfaces, and then beside it. */
+/* The light stands in front of the middle of the view, where it hides surfaces, and then beside it.
+ */
 static void a_light_that_moves_uncovers_what_it_hid(void **state) {
     const fixture *f = *state;
-    cli_error error = { "" };
+    base_error error = { "" };
     any_renderer *renderer = renderer_create(&f->device, &error);
     assert_non_null(renderer);
     scene_light light = f->world.lights[0];
@@ -69,10 +71,10 @@ static void a_light_that_moves_uncovers_what_it_hid(void **state) {
     draw(renderer, &frame, &hidden);
     for (int i = 0; i < 3; i++) {
         light.emitter.position.y += 0.3f;
-        expect_as_anew(f, renderer, &frame);
+        expect_as_recomputed(f, renderer, &frame);
     }
     frame.light_count = 0;
-    expect_as_anew(f, renderer, &frame);
+    expect_as_recomputed(f, renderer, &frame);
     draw(renderer, &frame, &free_view);
     const size_t middle = 3 * (size_t)(HEIGHT / 2 * WIDTH + WIDTH / 2);
     assert_true(hidden.rgb[middle] == light.emitter.radiance.r);
@@ -84,28 +86,28 @@ static void a_light_that_moves_uncovers_what_it_hid(void **state) {
 
 static void another_view_is_traced(void **state) {
     const fixture *f = *state;
-    cli_error error = { "" };
+    base_error error = { "" };
     any_renderer *renderer = renderer_create(&f->device, &error);
     assert_non_null(renderer);
     render_frame frame = frame_of(f, f->world.lights, f->world.light_count);
-    expect_as_anew(f, renderer, &frame);
+    expect_as_recomputed(f, renderer, &frame);
     frame.camera.eye[0] += 0.25f;
-    expect_as_anew(f, renderer, &frame);
-    frame.samples = 3; /* whose last one takes the planes */
-    expect_as_anew(f, renderer, &frame);
-    expect_as_anew(f, renderer, &frame);
+    expect_as_recomputed(f, renderer, &frame);
+    frame.samples = 3; /* the last sample takes the planes */
+    expect_as_recomputed(f, renderer, &frame);
+    expect_as_recomputed(f, renderer, &frame);
     frame.samples = 1;
-    expect_as_anew(f, renderer, &frame);
+    expect_as_recomputed(f, renderer, &frame);
     frame.height = HEIGHT / 2;
-    expect_as_anew(f, renderer, &frame);
+    expect_as_recomputed(f, renderer, &frame);
     renderer_destroy(renderer);
 }
 
-/* Glowing balls under coats, which take their part of the glow until a table replaces both: planes
- * that were kept hold the glow. */
+/* Glowing balls under coats, which keep part of the glow until a table replaces both: planes that
+ * were kept hold the glow. */
 static void other_materials_are_looked_at_again(void **state) {
     const fixture *f = *state;
-    cli_error error = { "" };
+    base_error error = { "" };
     scene world = f->world;
     scene_material *materials = malloc(world.material_count * sizeof *materials);
     int *uses = calloc(world.material_count, sizeof *uses);
@@ -126,23 +128,23 @@ static void other_materials_are_looked_at_again(void **state) {
     lmp_sgd sgd;
     lmp_brdf *brdf;
     lmp_brdf_table *table;
-    assert_int_equal(lmp_sgd_find("red-fabric", &sgd), LMP_OK);
+    assert_int_equal(lmp_brdf_find_sgd("red-fabric", &sgd), LMP_OK);
     assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
     assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
     lmp_brdf_destroy(brdf);
-    image before, again, anew;
+    image before, again, recomputed;
     draw(renderer, &frame, &before);
     const lmp_brdf_table *const tables[] = { table };
     assert_true(renderer_set_tables(renderer, tables, 1, uses, &error));
     assert_true(renderer_set_tables(fresh, tables, 1, uses, &error));
     draw(renderer, &frame, &again);
-    draw(fresh, &frame, &anew);
-    const size_t bytes = 3 * (size_t)WIDTH * HEIGHT * sizeof *anew.rgb;
-    assert_memory_equal(again.rgb, anew.rgb, bytes);
+    draw(fresh, &frame, &recomputed);
+    const size_t bytes = 3 * (size_t)WIDTH * HEIGHT * sizeof *recomputed.rgb;
+    assert_memory_equal(again.rgb, recomputed.rgb, bytes);
     assert_memory_not_equal(again.rgb, before.rgb, bytes);
     image_free(&before);
     image_free(&again);
-    image_free(&anew);
+    image_free(&recomputed);
     renderer_destroy(fresh);
     renderer_destroy(renderer);
     render_device_close(&coated.device);
@@ -161,30 +163,29 @@ typedef struct metered {
 static float meter(void *user, const image *pixels) {
     metered *m = user;
     const size_t count = 3 * (size_t)pixels->width * (size_t)pixels->height;
-    cli_error error = { "" };
+    base_error error = { "" };
     assert_true(image_create(&m->pixels, pixels->width, pixels->height, &error));
     memcpy(m->pixels.rgb, pixels->rgb, count * sizeof *pixels->rgb);
     m->runs++;
     return 3;
 }
 
-/* The mean is that of the exposure which the meter tells, once. */
+/* The meter reports the mean of the exposure, once. */
 static void expect_metered(const fixture *f, render_frame frame, metered *m) {
-    cli_error error = { "" };
+    base_error error = { "" };
     any_renderer *renderer = renderer_create(&f->device, &error);
     assert_non_null(renderer);
     const size_t bytes = 3 * (size_t)frame.width * (size_t)frame.height * sizeof(float);
     image drawn, again, exposed;
-    frame.meter = (render_meter) { meter, m };
+    renderer_set_meter(renderer, (render_meter) { meter, m });
     draw(renderer, &frame, &drawn);
     assert_int_equal(m->runs, 1);
     assert_true(renderer_meter(renderer, &frame, &again, &error));
     assert_int_equal(m->runs, 1);
     assert_memory_equal(m->pixels.rgb, again.rgb,
                         3 * (size_t)again.width * (size_t)again.height * sizeof(float));
-    frame.meter.run = NULL;
     frame.samples_exposure = 3;
-    draw_anew(f, frame, &exposed);
+    draw_recomputed(f, frame, &exposed);
     assert_memory_equal(drawn.rgb, exposed.rgb, bytes);
     image_free(&drawn);
     image_free(&again);
@@ -192,8 +193,8 @@ static void expect_metered(const fixture *f, render_frame frame, metered *m) {
     renderer_destroy(renderer);
 }
 
-/* The same pixels whatever the samples, the background, and whether lights are seen: black where
- * there is no surface. */
+/* The meter returns the same for any samples and background, with lights visible or not: pixels
+ * without a surface are black. */
 static void the_meter_sees_lit_surface_alone(void **state) {
     const fixture *f = *state;
     metered first = { .runs = 0 };
@@ -205,7 +206,7 @@ static void the_meter_sees_lit_surface_alone(void **state) {
     for (int kind = 0; kind < 8; kind++) {
         render_frame frame = frame_of(f, kind & 1 ? hidden : f->world.lights, f->world.light_count);
         metered m = { .runs = 0 };
-        frame.camera.target[1] += 10; /* so that nothing stands in the upper left corner */
+        frame.camera.target[1] += 10; /* leaves nothing in the upper left corner */
         frame.background[0] = 0.5f;
         frame.samples = kind & 2 ? 4 : 1;
         frame.keep_geometry = kind & 4;
@@ -226,7 +227,7 @@ static void the_meter_sees_lit_surface_alone(void **state) {
 
 static int open_scene(void **state) {
     static fixture f;
-    cli_error error = { "" };
+    base_error error = { "" };
     *state = &f;
     return !scene_load("builtin:balls", &(scene_options) { .no_cache = true }, &f.world, &error) ||
            !render_device_open(DEVICE_CPU, NULL, &f.world, &f.device, &error);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What later samples of a pixel take of the first one: what maps show, where the same surface is
- * seen and the image is even around the pixel, and nothing else. */
+/* Later samples of a pixel reuse from the first one what maps show, where they see the same surface
+ * and the image is even around the pixel, and nothing else. */
 #include "app/render/cpu/shared.h"
 
 #include "tests/oracle/check.h"
@@ -12,16 +12,17 @@ enum { SIDE = 3, PIXELS = SIDE * SIDE, MIDDLE = 4, MATERIAL = 7 };
 static const render_rectangle whole = { 0, 0, SIDE, SIDE };
 static const lmp_vec3 normal = { 0.6f, 0, 0.8f };
 
-/* Two samples of a wall at distance 1 whose base color is 0.5, seen by 200 rows of pixels. */
+/* Two samples of a wall at distance 1 whose base color is 0.5, in an image of 200 rows. */
 typedef struct samples {
     render_surfaces first, later;
     float rgba[4 * PIXELS];
 } samples;
 
 static void setup(samples *s) {
+    static const render_materials plain = { .of = NULL };
     render_surfaces *const both[] = { &s->first, &s->later };
     for (int k = 0; k < 2; k++) {
-        assert_true(render_surfaces_create(SIDE, SIDE, false, both[k]));
+        assert_true(render_surfaces_create(SIDE, SIDE, &plain, both[k]));
         both[k]->camera = (render_camera) { .down = { 0, 1, 0 }, .step = { 0.01f, 0.01f } };
     }
     assert_true(render_surfaces_keep_smooth(&s->first));
@@ -70,7 +71,7 @@ static void the_same_surface_is_taken(void **state) {
     teardown(&s);
 }
 
-/* All around, by angles below and above a sixty-fourth. */
+/* Normals differ in all directions, by angles below and above 1/64. */
 static void normals_tell_surfaces_apart(void **state) {
     (void)state;
     samples s;
@@ -95,7 +96,7 @@ static void normals_tell_surfaces_apart(void **state) {
     teardown(&s);
 }
 
-/* Each neighbor counts, that across a corner does not; and a mark is gone once it is even. */
+/* Each neighbor counts, except across a corner; and a mark is removed once the pixel is even. */
 static void uneven_pixels_are_not_taken(void **state) {
     (void)state;
     samples s;

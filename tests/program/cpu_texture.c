@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The CPU's textures: levels keep the mean of what they halve, and look-ups take the level that a
+/* The CPU's textures: levels keep the mean of what they halve, and lookups take the level that a
  * pixel's footprint asks for. */
 #include "app/render/cpu/texture.h"
 
@@ -27,7 +27,7 @@ static void set_scene(sample_scene *s, uint32_t width, uint32_t height, bool srg
                          .texel_bytes = 4 * (size_t)width * height };
 }
 
-/* A look-up at u, v of a pixel that covers so much of the texture along u and along v. */
+/* Looks up u, v for a pixel that covers some of the texture along u and along v. */
 static void look(const cpu_textures *textures, float u, float v, float across, float down,
                  float rgba[4]) {
     const cpu_footprint at = { .uv = { { u, v } },
@@ -38,8 +38,8 @@ static void look(const cpu_textures *textures, float u, float v, float across, f
     cpu_texture_read(textures, &whole, &cover, rgba);
 }
 
-/* A texture seen as one pixel is its mean, odd sides or not; that of sRGB is taken of linear
- * values. Each level rounds to a byte. */
+/* A texture seen as one pixel is its mean, of odd sides or even; sRGB is averaged in linear values.
+ * Each level rounds to a byte. */
 static void the_last_level_is_the_mean(void **state) {
     (void)state;
     static const uint32_t sizes[][2] = { { 64, 64 }, { 63, 63 }, { 37, 12 }, { 1, 50 }, { 5, 1 } };
@@ -65,7 +65,7 @@ static void the_last_level_is_the_mean(void **state) {
         }
 }
 
-/* Columns alternate between black and white. */
+/* Makes columns that alternate between black and white. */
 static cpu_textures *make_stripes(sample_scene *s) {
     set_scene(s, 64, 64, false);
     for (size_t i = 0; i < 64 * 64; i++)
@@ -75,7 +75,7 @@ static cpu_textures *make_stripes(sample_scene *s) {
     return textures;
 }
 
-/* Pixels of one texel see the stripes, those of two gray. */
+/* Pixels as small as a texel see the stripes, those of two texels see gray. */
 static void the_footprint_chooses_the_level(void **state) {
     (void)state;
     static sample_scene s;
@@ -87,14 +87,14 @@ static void the_footprint_chooses_the_level(void **state) {
         CHECK_WITHIN(fabsf(rgba[0] - (float)(column % 2)), 1e-5);
         look(textures, u, 0.5f, 2 / 64.0f, 2 / 64.0f, rgba);
         CHECK_WITHIN(fabsf(rgba[0] - 0.5f), 0.003);
-        look(textures, u, 0.5f, 1.5f / 64, 1.5f / 64, rgba); /* between both levels */
+        look(textures, u, 0.5f, 1.5f / 64, 1.5f / 64, rgba); /* halfway between two levels */
         CHECK_WITHIN(fabsf(fabsf(rgba[0] - 0.5f) - 0.2075f), 0.01);
     }
     cpu_textures_destroy(textures);
 }
 
-/* A pixel that is long across the stripes, and one that is long along them: the second still sees
- * them, as a plane seen at a grazing angle does. */
+/* One pixel is long across the stripes, the other along them: the second still sees them, as on a
+ * plane at a grazing angle. */
 static void long_footprints_are_sharp_across_their_length(void **state) {
     (void)state;
     static sample_scene s;
@@ -106,13 +106,14 @@ static void long_footprints_are_sharp_across_their_length(void **state) {
     CHECK_WITHIN(1 - rgba[0], 1e-5);
     look(textures, 11.5f / 64, 0.5f, 8 / 64.0f, 1 / 64.0f, rgba);
     CHECK_WITHIN(fabsf(rgba[0] - 0.5f), 0.01);
-    /* more than eight times as long as wide, a coarser level helps out */
+    /* A pixel more than eight times as long as wide takes a coarser level. */
     look(textures, 11.5f / 64, 0.5f, 1 / 64.0f, 16 / 64.0f, rgba);
     CHECK_WITHIN(fabsf(rgba[0] - 0.5f), 0.01);
     cpu_textures_destroy(textures);
 }
 
-/* Left half black, right half white: each mode has its own neighbor of the last texel. */
+/* The left half is black and the right half white: each mode has its own neighbor of the last
+ * texel. */
 static void edges_follow_the_wrap_modes(void **state) {
     (void)state;
     static sample_scene s;

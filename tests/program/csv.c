@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of numbers: app/csv. */
-#include "app/csv/csv.h"
+/* Tables of numbers: app/base/csv.h. */
+#include "app/base/csv.h"
 #include "tests/oracle/check.h"
 
 #include <float.h>
@@ -55,8 +55,8 @@ static void zero_has_no_sign(void **state) {
 
 static const char *const names[] = { "a", "b" };
 
-/* Reads a table of two columns to its end; returns the rows' sum, and how reading ended. */
-static float read_table(const void *bytes, size_t size, csv_result *result, cli_error *error) {
+/* Reads a table of two columns to its end; returns the sum of its rows, and how reading ended. */
+static float read_table(const void *bytes, size_t size, csv_result *result, base_error *error) {
     char path[] = "/tmp/lampion-csv-XXXXXX";
     const int descriptor = mkstemp(path);
     assert_true(descriptor >= 0);
@@ -90,7 +90,7 @@ static void tables_of_every_system_are_read(void **state) {
     };
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
         csv_result result;
-        cli_error error;
+        base_error error;
         const float sum = read_table(tables[i], strlen(tables[i]), &result, &error);
         if (result != CSV_END || sum != -21.0f)
             fail_msg("table %zu: %g, %s", i, (double)sum, error.text);
@@ -120,14 +120,14 @@ static void wrong_tables_are_refused_with_their_line(void **state) {
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         csv_result result;
-        cli_error error;
+        base_error error;
         read_table(wrong[i][0], strlen(wrong[i][0]), &result, &error);
         assert_int_equal(result, CSV_ERROR);
         if (!strstr(error.text, wrong[i][1]))
             fail_msg("%s: %s", wrong[i][0], error.text);
     }
     csv_result result;
-    cli_error error;
+    base_error error;
     read_table("a,b\n1\0,2\n", 9, &result, &error);
     assert_non_null(strstr(error.text, "line 2: a: "));
 }
@@ -141,7 +141,7 @@ static void long_tables_pass_and_long_lines_do_not(void **state) {
     for (size_t i = 4; i < size; i += 4)
         memcpy(table + i, "1,0\n", 4);
     csv_result result;
-    cli_error error;
+    base_error error;
     assert_true(read_table(table, size, &result, &error) == (float)(size / 4 - 1));
     assert_int_equal(result, CSV_END);
     memset(table + 4, '1', size - 4);
@@ -154,7 +154,7 @@ static void missing_and_unreadable_files_are_reported(void **state) {
     (void)state;
     csv_reader *const reader = malloc(sizeof *reader);
     assert_non_null(reader);
-    cli_error error;
+    base_error error;
     assert_false(csv_open(reader, "/nowhere/table.csv", "a,b", &error));
     assert_string_equal(error.text, "/nowhere/table.csv: No such file or directory");
     assert_false(csv_open(reader, "/", "a,b", &error));

@@ -9,7 +9,7 @@ awk 'BEGIN {
     for (i = 1; i <= 500; i++) print i % 7 - 3 ",3," i % 5 ",0." i ",0,0,0"
 }' >"$WORK/lights.csv"
 
-# outputs NAME [OPTION…]: what the commands write, in a folder of that name.
+# outputs NAME [OPTION…]: writes what the commands print, in a folder of that name.
 outputs() {
     folder=$WORK/$1
     shift
@@ -23,18 +23,18 @@ outputs() {
         -o "$folder/reference.exr" "$@"
     "$PROGRAM" brdf bake sgd:white-fabric --views 8 -o "$folder/table.lmpt" "$@"
     "$PROGRAM" project --batch "$WORK/lights.csv" $batches "$@" >"$folder/project.csv"
-    "$PROGRAM" field builtin:atrium --grid 4x3x5 --shadows -o "$folder/probes.csv" $batches "$@"
+    "$PROGRAM" field builtin:balls --grid 4x3x5 --shadows -o "$folder/probes.csv" $batches "$@"
     "$PROGRAM" field builtin:atrium --grid 4x3x5 -o "$folder/probes.lmpf" $batches "$@"
     rm -r "$folder/cache"
 }
 
-# same NAME [OPTION…]: those are the outputs of the first run.
+# same NAME [OPTION…]: the outputs must be those of the first run.
 same() {
     outputs "$@" >"$WORK/log" 2>&1 || fail "$1: $(cat "$WORK/log")"
     compare "$1"
 }
 
-# compare NAME: with the outputs of the first run.
+# compare NAME: compares with the outputs of the first run.
 compare() {
     diff -rq "$WORK/first" "$WORK/$1" || fail "$1: other bytes than the first run"
 }
@@ -52,7 +52,7 @@ for mask in 1 2 4 8; do
 done
 unset mask
 
-# the locales are made here, for few systems have them
+# The locales are made here, because few systems have them.
 export LOCPATH="$WORK/locale"
 mkdir "$LOCPATH"
 for name in de_DE tr_TR; do
@@ -63,6 +63,6 @@ for name in de_DE tr_TR; do
     LC_ALL=$name.UTF-8 same "$name"
 done
 
-# and a difference would be seen
+# A difference must be found.
 printf x >>"$WORK/first/project.csv"
 if (compare again) >/dev/null 2>&1; then fail "a difference goes unseen"; fi

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Environments: where an image's colors are seen, what its coefficients are, and what is refused.
- */
-#include "app/environment/environment.h"
+/* Environments: directions of an image's colors, its coefficients, and what is refused. */
+#include "app/scene/environment.h"
 #include "app/scene/instance.h"
 #include "tests/program/folder.h"
 
@@ -15,7 +14,7 @@ static scene lit_scene(void) {
 }
 
 static image filled(int width, int height, float red) {
-    cli_error error;
+    base_error error;
     image pixels;
     assert_true(image_create(&pixels, width, height, &error));
     for (int i = 0; i < width * height; i++)
@@ -23,14 +22,14 @@ static image filled(int width, int height, float red) {
     return pixels;
 }
 
-/* Writes it, and opens it as an environment. */
+/* Writes an image and opens it as an environment. */
 static bool opens(const image *pixels, float rotation, float strength, environment *e,
-                  cli_error *error) {
+                  base_error *error) {
     const scene world = lit_scene();
     const environment_options options = { .name = in_folder("map.exr"),
                                           .rotation = rotation,
                                           .strength = strength };
-    *error = (cli_error) { .text = "" };
+    *error = (base_error) { .text = "" };
     if (!image_write(pixels, options.name, &(image_display) { .exposure = 1 }, error))
         fail_msg("%s", error->text);
     return environment_open(&options, &world, e, error);
@@ -45,10 +44,10 @@ static void an_even_image_is_an_even_light(void **state) {
     (void)state;
     image pixels = filled(64, 32, 1.5f);
     environment e;
-    cli_error error;
+    base_error error;
     assert_true(opens(&pixels, 33, 2, &e, &error));
     assert_true(environment_project(&e, 6, &error));
-    /* Up to 42; pixels count by their middles. */
+    /* Radiances are at most 42; pixels count by their centers. */
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < 36; i++)
             CHECK_WITHIN(
@@ -64,8 +63,8 @@ static void directions_and_rotations_are_as_documented(void **state) {
     (void)state;
     image pixels = filled(8, 4, 0);
     environment e;
-    cli_error error;
-    for (int x = 4; x < 6; x++) /* from the center to the middle of +x and +z */
+    base_error error;
+    for (int x = 4; x < 6; x++) /* from the center to +x, and to +z */
         pixels.rgb[3 * (8 + x)] = pixels.rgb[3 * (16 + x)] = 1;
     assert_true(opens(&pixels, 0, 1, &e, &error));
     expect_seen(&e, 1, 0, 1, 1);
@@ -75,16 +74,16 @@ static void directions_and_rotations_are_as_documented(void **state) {
     assert_true(opens(&pixels, 90, 1, &e, &error));
     expect_seen(&e, 1, 0, -1, 1);
     expect_seen(&e, 1, 0, 1, 0);
-    /* Its series is largest there, too. */
+    /* The series is largest there, too. */
     assert_true(environment_project(&e, 3, &error));
-    const float half = (float)sqrt(0.5);
-    const lmp_vec3 bright = { half, 0, -half }, dark = { -half, 0, half };
+    const float root_half = (float)sqrt(0.5);
+    const lmp_vec3 bright = { root_half, 0, -root_half }, dark = { -root_half, 0, root_half };
     assert_true(lmp_sh_reconstruct(3, e.sh, bright) > lmp_sh_reconstruct(3, e.sh, dark) + 0.5f);
     environment_free(&e);
     image_free(&pixels);
 }
 
-/* Faces by their columns and rows in a cross, with the axis each is on; the middle is -z. */
+/* The faces' columns and rows in a cross, with the axis of each; the middle face is -z. */
 static void crosses_are_unfolded(void **state) {
     (void)state;
     static const int wide[6][2] = { { 1, 1 }, { 2, 1 }, { 0, 1 }, { 1, 0 }, { 1, 2 }, { 3, 1 } };
@@ -95,7 +94,7 @@ static void crosses_are_unfolded(void **state) {
     for (int kind = 0; kind < 2; kind++) {
         image pixels = filled(kind ? 3 * SIZE : 4 * SIZE, kind ? 4 * SIZE : 3 * SIZE, 0);
         environment e;
-        cli_error error;
+        base_error error;
         for (int i = 0; i < 6; i++) {
             const int *position = kind ? tall[i] : wide[i];
             for (int y = 0; y < SIZE; y++)
@@ -108,7 +107,7 @@ static void crosses_are_unfolded(void **state) {
         assert_true(opens(&pixels, 0, 1, &e, &error));
         for (int i = 0; i < 5; i++)
             expect_seen(&e, axes[i][0], axes[i][1], axes[i][2], i + 1);
-        /* Behind, the upper half is brighter: in a tall cross it hangs upside down. */
+        /* The upper half of the face behind is brighter: in a tall cross it hangs upside down. */
         expect_seen(&e, 0.1f, 0.5f, 1, 6.5);
         expect_seen(&e, 0.1f, -0.5f, 1, 6);
         environment_free(&e);
@@ -116,13 +115,13 @@ static void crosses_are_unfolded(void **state) {
     }
 }
 
-/* Large images are averaged first; few bands do not notice. */
+/* Large images are averaged first, which must not change few bands. */
 static void a_large_image_has_the_coefficients_of_all_its_pixels(void **state) {
     (void)state;
     enum { WIDTH = 1024, HEIGHT = 512, BANDS = 5 };
     image pixels = filled(WIDTH, HEIGHT, 0);
     environment e;
-    cli_error error;
+    base_error error;
     float direct[3 * BANDS * BANDS];
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
         pixels.rgb[i] = (float)check_random();
@@ -141,7 +140,7 @@ static void a_large_image_has_the_coefficients_of_all_its_pixels(void **state) {
 static void what_is_no_environment_is_refused(void **state) {
     (void)state;
     environment e;
-    cli_error error;
+    base_error error;
     image square = filled(8, 8, 1), hole = filled(8, 4, 1), negative = filled(8, 4, -1);
     hole.rgb[3 * (8 + 5)] = NAN;
     assert_false(opens(&square, 0, 1, &e, &error));
@@ -151,7 +150,7 @@ static void what_is_no_environment_is_refused(void **state) {
     hole.rgb[3 * (8 + 5)] = 2e19f;
     assert_false(opens(&hole, 0, 1, &e, &error));
     assert_non_null(strstr(error.text, "a pixel (5, 1) that is not finite, or above 1e19"));
-    assert_true(opens(&negative, 0, 1, &e, &error)); /* ringing of a filter */
+    assert_true(opens(&negative, 0, 1, &e, &error)); /* the ringing of a filter */
     expect_seen(&e, 1, 0, 0, 0);
     environment_free(&e);
     const scene world = lit_scene();
@@ -166,7 +165,7 @@ static void what_is_no_environment_is_refused(void **state) {
     image_free(&negative);
 }
 
-/* A floor, seen from above, and a lamp over or under it, which stands for a mesh or not. */
+/* Makes a floor, seen from above, and a lamp over or under it, which stands for a mesh or not. */
 static scene glowing_scene(float height, uint32_t hidden) {
     static scene_vertex vertices[4];
     static const uint32_t indices[6] = { 0, 1, 2, 0, 2, 3 };
@@ -208,15 +207,16 @@ static void the_studio_shines_where_what_glows_lights_little(void **state) {
     assert_string_equal(environment_choose(&none, &over), "none");
     const scene under = glowing_scene(-1, 1);
     assert_string_equal(environment_choose(&none, &under), "studio");
-    const scene lamp = glowing_scene(-1, 0); /* no mesh, but a light that somebody put there */
+    const scene lamp = glowing_scene(-1, 0); /* a light that is not a mesh */
     assert_string_equal(environment_choose(&none, &lamp), "none");
-    /* and has the exposure of the studio alone, however it is chosen, but not beside a lamp */
+    /* The scene has the exposure of the studio alone, however that is chosen, but not beside a
+     * lamp. */
     const char *const names[] = { NULL, "studio" };
     for (int i = 0; i < 2; i++) {
         const environment_options options = { .name = names[i], .strength = 1 };
         const scene dark = glowing_scene(-1, 1);
         environment e;
-        cli_error error;
+        base_error error;
         assert_true(environment_open(&options, &dark, &e, &error));
         assert_true(e.studio && environment_exposure(&e, 1) > 0 &&
                     environment_exposure(&e, 2) <= 0);
@@ -229,7 +229,7 @@ static void the_studio_shines_where_nothing_else_does(void **state) {
     const environment_options none = ENVIRONMENT_DEFAULTS;
     scene world = lit_scene();
     environment e;
-    cli_error error;
+    base_error error;
     assert_string_equal(environment_choose(&none, &world), "none");
     world.light_count = 0;
     assert_string_equal(environment_choose(&none, &world), "studio");
@@ -239,7 +239,7 @@ static void the_studio_shines_where_nothing_else_does(void **state) {
                                  &e, &error));
     assert_true(environment_shines(&e) && environment_exposure(&e, 0) > 0);
     assert_true(environment_exposure(&e, 1) <= 0);
-    /* White paper that faces up is bright and not overexposed. */
+    /* White paper that faces up is bright but not overexposed. */
     assert_true(environment_project(&e, 3, &error));
     const lmp_rgb paper = lmp_probe_irradiance(3, e.sh, (lmp_vec3) { 0, 1, 0 });
     printf("white paper that faces up: %.3f\n", (double)paper.g / M_PI);
@@ -251,14 +251,14 @@ static void the_studio_shines_where_nothing_else_does(void **state) {
 
 enum { SKY_WIDTH = 256, SKY_HEIGHT = 128 };
 
-/* The cosine of a pixel's direction with another one, in the image's own frame. */
+/* Returns the cosine between a pixel's direction and another one, in the image's own frame. */
 static double sky_cosine(int pixel, const double w[3]) {
     const double theta = M_PI * (pixel / SKY_WIDTH + 0.5) / SKY_HEIGHT;
     const double phi = 2 * M_PI * ((pixel % SKY_WIDTH + 0.5) / SKY_WIDTH - 0.5);
     return sin(theta) * (cos(phi) * w[0] + sin(phi) * w[2]) + cos(theta) * w[1];
 }
 
-/* A blue sky of radiance 0.2, 0.4, 0.8, and a disc around the direction. */
+/* Makes a blue sky of radiance 0.2, 0.4, 0.8 with a disc around a direction. */
 static image sky_with_disc(const double w[3], double angle, float radiance) {
     image pixels = filled(SKY_WIDTH, SKY_HEIGHT, 0.2f);
     for (int i = 0; i < SKY_WIDTH * SKY_HEIGHT; i++)
@@ -267,7 +267,7 @@ static image sky_with_disc(const double w[3], double angle, float radiance) {
     return pixels;
 }
 
-/* Of red, the irradiance of a surface that faces the direction. */
+/* Returns the irradiance, in red, of a surface that faces the direction. */
 static double irradiance(const image *pixels, const double w[3]) {
     double sum = 0;
     for (int i = 0; i < SKY_WIDTH * SKY_HEIGHT; i++) {
@@ -289,7 +289,7 @@ static void a_sun_in_an_image_becomes_a_cap(void **state) {
                                     w[2] * cos(turn) - w[0] * sin(turn) };
         image pixels = sky_with_disc(w, angle, 1e4f);
         environment e;
-        cli_error error;
+        base_error error;
         assert_true(opens(&pixels, 40.0f * (float)i, 1, &e, &error));
         const double before = irradiance(&e.light, w);
         assert_true(environment_extract_suns(&e, &error));
@@ -300,22 +300,22 @@ static void a_sun_in_an_image_becomes_a_cap(void **state) {
         CHECK_WITHIN(
             1 - ((double)d.x * rotated[0] + (double)d.y * rotated[1] + (double)d.z * rotated[2]),
             1e-4);
-        CHECK_WITHIN(fabs((double)sun->angle / angle - 1), 0.25); /* of pixels of 0.025 */
+        CHECK_WITHIN(fabs((double)sun->angle / angle - 1), 0.25); /* pixels are 0.025 wide */
         const double after = irradiance(&e.light, w) +
                              M_PI * (double)sun->radiance.r * pow(sin((double)sun->angle), 2);
         CHECK_WITHIN(fabs(after / before - 1), 0.005);
-        /* The sky goes on where it was; what is seen keeps it. */
+        /* The sky behind the sun continues its surroundings; what is seen keeps the sun. */
         for (int k = 0; k < 3 * SKY_WIDTH * SKY_HEIGHT; k++)
             assert_true(e.light.rgb[k] < 0.9f);
         const lmp_rgb seen = environment_seen(&e, (float[]) { d.x, d.y, d.z });
-        CHECK_WITHIN(fabs((double)seen.r / 3e4 - 1), 1e-3); /* of 16 bits */
+        CHECK_WITHIN(fabs((double)seen.r / 3e4 - 1), 1e-3); /* in 16 bits */
         environment_free(&e);
         image_free(&pixels);
     }
 }
 
-/* White paper by ten bands, wherever it faces, against quadrature of the whole image: on the dark
- * side of a sun of 1e5 there is the light of the sky. */
+/* White paper by ten bands, in every direction, agrees with quadrature of the whole image: on the
+ * side away from a sun of 1e5 only the sky lights it. */
 static void the_side_away_from_a_sun_is_as_dark_as_it_is(void **state) {
     (void)state;
     const double w[3] = { 0.48, 0.6, 0.64 };
@@ -323,7 +323,7 @@ static void the_side_away_from_a_sun_is_as_dark_as_it_is(void **state) {
     const lmp_shade_settings settings = { .bands = 10, .window = LMP_WINDOW_HANNING };
     image pixels = sky_with_disc(w, 0.06, 1e5f / 3);
     environment e;
-    cli_error error;
+    base_error error;
     assert_true(opens(&pixels, 0, 1, &e, &error));
     assert_true(environment_extract_suns(&e, &error) && environment_project(&e, 10, &error));
     const lmp_environment sky = { e.sh, e.bands };
@@ -341,7 +341,7 @@ static void the_side_away_from_a_sun_is_as_dark_as_it_is(void **state) {
     image_free(&pixels);
 }
 
-/* As many as there are; and none of a sky, of a wide window or of stars that give little. */
+/* As many suns are found as there are; none in a sky, a wide window or stars that give little. */
 static void what_is_no_sun_stays_in_the_image(void **state) {
     (void)state;
     static const struct {
@@ -352,7 +352,7 @@ static void what_is_no_sun_stays_in_the_image(void **state) {
         const double w[3] = { 0.48, 0.6, 0.64 };
         image pixels = sky_with_disc(w, discs[i].angle, discs[i].radiance);
         environment e;
-        cli_error error;
+        base_error error;
         assert_true(opens(&pixels, 0, 1, &e, &error));
         assert_true(environment_extract_suns(&e, &error));
         assert_int_equal(e.sun_count, 0);

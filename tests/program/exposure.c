@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Exposure: forty scenes show what is lit, and nothing of it burnt out. */
-#include "app/render/renderer.h"
+/* Exposure shows what is lit in forty scenes, and overexposes nothing of it. */
+#include "app/render/renderer/renderer.h"
 #include "app/render/shadow/shadow.h"
 
 #include "tests/oracle/check.h"
@@ -39,7 +39,7 @@ static void make_shape(shape *s, int kind) {
     }
 }
 
-/* From dim to bright, few to many, large to small, near to far. */
+/* Makes lamps from dim to bright, few to many, large to small, near to far. */
 static size_t make_lamps(scene_light *lights, int kind, const scene *world) {
     const lmp_vec3 low = vec_load(world->minimum), high = vec_load(world->maximum),
                    size = vec_sub(high, low);
@@ -65,7 +65,8 @@ static int by_size(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* The exposed luminance of what is lit, in order; returns how many there are. */
+/* Finds the exposed luminance of what is lit, in ascending order; returns how many pixels there
+ * are. */
 static size_t lit_of(const image *pixels, float exposure, float *lit) {
     size_t count = 0;
     for (size_t i = 0; i < (size_t)pixels->width * (size_t)pixels->height; i++) {
@@ -90,7 +91,7 @@ typedef struct subject {
 
 static subject *open_subject(int kind, int lamps) {
     subject *s = calloc(1, sizeof *s);
-    cli_error error = { "" };
+    base_error error = { "" };
     make_shape(&s->shape, kind);
     s->world = shape_scene(&s->shape);
     s->material = scene_material_plain();
@@ -126,7 +127,7 @@ static void forty_scenes_show_what_is_lit(void **state) {
     for (int kind = 0; kind < SHAPES; kind++)
         for (int lamps = 0; lamps < LAMPS; lamps++) {
             subject *s = open_subject(kind, lamps);
-            cli_error error = { "" };
+            base_error error = { "" };
             image pixels;
             assert_true(renderer_meter(s->renderer, &s->frame, &pixels, &error));
             const size_t count = lit_of(&pixels, image_auto_exposure(&pixels), lit);
@@ -148,13 +149,13 @@ static void forty_scenes_show_what_is_lit(void **state) {
                   clipped);
 }
 
-/* With shadows, and where lamps are in the image, it is exposed as without. */
+/* Shadows, and lamps in the image, do not change the exposure. */
 static void shadows_and_lamps_change_no_exposure(void **state) {
     (void)state;
     for (int kind = 0; kind < SHAPES; kind++) {
         subject *s = open_subject(kind, 5);
         const environment none = { .bands = 0 };
-        cli_error error = { "" };
+        base_error error = { "" };
         const shadow_settings settings = { .rays = 0 };
         shadow *cast =
             shadow_create(&s->world, render_device_bvh(&s->device), &none, &settings, &error);
@@ -164,8 +165,7 @@ static void shadows_and_lamps_change_no_exposure(void **state) {
             image pixels;
             for (size_t i = 0; i < s->world.light_count; i++)
                 s->lights[i].hidden = way & 1;
-            s->frame.shadow =
-                way & 2 ? (render_pass) { shadow_frame, cast } : (render_pass) { NULL, NULL };
+            s->frame.shadow = way & 2 ? shadow_pass(cast) : (render_pass) { .user = NULL };
             assert_true(renderer_meter(s->renderer, &s->frame, &pixels, &error));
             exposures[way] = image_auto_exposure(&pixels);
             assert_true(exposures[way] == exposures[0]);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* OpenEXR files as another program reads them: this test parses the format itself, with zlib alone,
+/* OpenEXR files as another program reads them: this test parses the format itself, with only zlib,
  * and finds every float that was written. LAMPION_LONG=1 tries every size from 1 to 40 squared. */
 #include "app/image/image.h"
 #include "tests/program/folder.h"
 
-#include "app/file/file.h"
+#include "app/base/error.h"
+#include "app/base/file.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -39,7 +40,7 @@ static const char *take_text(reader *r) {
 
 typedef struct exr_header {
     int width, height, channel_count;
-    const char *channels[3 * IMAGE_LAYERS_MAX]; /* sorted by name, as their rows are */
+    const char *channels[3 * IMAGE_LAYERS_MAX]; /* sorted by name, as in the rows */
 } exr_header;
 
 static void read_channels(reader r, exr_header *header) {
@@ -94,7 +95,7 @@ static void unpack(const unsigned char *data, size_t size, unsigned char *packed
         packed[i] = planes[i / 2 + i % 2 * ((length + 1) / 2)];
 }
 
-/* "R" of the layer without a name, "NAME.R" of another. */
+/* Returns "R" of the layer without a name, or "NAME.R" of another. */
 static const float *channel_of(const char *name, const image_layer *layers) {
     const char *dot = strrchr(name, '.');
     for (int i = 0; i < LAYERS; i++)
@@ -124,7 +125,7 @@ static void check_chunk(reader *r, const exr_header *header, int top, const imag
 }
 
 static void check_file(const char *name, const image_layer *layers) {
-    cli_error error;
+    base_error error;
     void *data;
     size_t size;
     assert_true(file_read(in_folder(name), 1 << 28, &data, &size, &error));
@@ -155,17 +156,17 @@ static float noise(double fraction) {
 
 static image make(int width, int height, float (*fill)(double), double fraction) {
     image pixels;
-    cli_error error;
+    base_error error;
     assert_true(image_create(&pixels, width, height, &error));
     for (size_t i = 0; i < 3 * (size_t)width * (size_t)height; i++)
         pixels.rgb[i] = fill ? fill(fraction) : (float)fraction * (float)i;
     return pixels;
 }
 
-/* Layers of which one is all noise, one a smooth ramp, and one noise in a fraction of its values,
- * so that some chunks deflate to just about what they were. */
+/* Checks layers of which one is noise, one a smooth ramp, and one noise in a fraction of its
+ * values, so that some chunks deflate to just about their size. */
 static void check_size(int width, int height, double fraction) {
-    cli_error error = { "" };
+    base_error error = { "" };
     image images[LAYERS] = { make(width, height, noise, fraction), make(width, height, noise, 1),
                              make(width, height, fraction < 1 ? NULL : noise, fraction) };
     const image_layer layers[LAYERS] = { { "", &images[0] },

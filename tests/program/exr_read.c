@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* OpenEXR images of luminance and chroma: files made here, byte by byte, give the colors that they
- * were made of. */
+/* OpenEXR images of luminance and chroma: files built here, byte by byte, give the colors that they
+ * were built from. */
 #include "app/image/exr.h"
 #include "tests/oracle/check.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { WIDTH = 40, HEIGHT = 36, SIZE_MAX_BYTES = 1 << 16, EDGE = 14 /* of the filter */ };
+enum { WIDTH = 40, HEIGHT = 36, SIZE_MAX_BYTES = 1 << 16, EDGE = 14 /* EDGE: of the filter */ };
 
 typedef struct file {
     unsigned char bytes[SIZE_MAX_BYTES];
@@ -32,12 +32,12 @@ static void put_attribute(file *f, const char *name, const char *type, const voi
     put(f, data, size);
 }
 
-/* What a file holds: chroma at every `step`-th pixel, 0: none. */
+/* What a file holds, with chroma at every `step`-th pixel, or none if step is 0. */
 typedef struct kind {
     int step;
     bool half;
-    const float *chromaticities; /* of red, green, blue and white; NULL: Rec. 709's, unsaid */
-    double weights[3];           /* of R, G and B in Y */
+    const float *chromaticities; /* of red, green, blue, white; NULL: Rec. 709's, unstated */
+    double weights[3];           /* weights of R, G and B in Y */
 } kind;
 
 static void put_channels(file *f, const kind *k) {
@@ -74,7 +74,7 @@ static void put_header(file *f, const kind *k) {
     put(f, "", 1);
 }
 
-/* Chroma that changes evenly over the image, and luminance that does not. */
+/* Chroma changes evenly over the image, and luminance does not. */
 static double ry_at(int x, int y) {
     return 0.4 - 0.01 * x + 0.005 * y;
 }
@@ -144,12 +144,12 @@ static void check(const kind *k) {
         .path = "input.exr", .data = f.bytes, .size = f.size, .pixels_max = 1 << 20
     };
     image pixels;
-    cli_error error = { "" };
+    base_error error = { "" };
     if (!image_decode_exr(&source, &pixels, &error))
         fail_msg("%s", error.text);
     assert_int_equal(pixels.width, WIDTH);
     assert_int_equal(pixels.height, HEIGHT);
-    const int edge = k->step > 1 ? EDGE : 0; /* where the filter lacks samples */
+    const int edge = k->step > 1 ? EDGE : 0; /* where the filter has too few samples */
     for (int y = edge; y < HEIGHT - edge; y++)
         for (int x = edge; x < WIDTH - edge; x++)
             check_pixel(k, x, y, pixels.rgb + 3 * (y * WIDTH + x));
@@ -172,7 +172,7 @@ static void luminance_and_chroma_give_colors(void **state) {
             check(&(kind) { .step = step, .half = half, .weights = REC709 });
 }
 
-/* Rec. 2020's luminance, as its standard says it. */
+/* The weights are Rec. 2020's luminance, as in its standard. */
 static void chromaticities_say_what_luminance_is_of(void **state) {
     (void)state;
     static const float rec2020[] = {
@@ -192,7 +192,7 @@ static void a_file_without_any_color_is_refused(void **state) {
         .path = "input.exr", .data = f.bytes, .size = f.size, .pixels_max = 1 << 20
     };
     image pixels;
-    cli_error error = { "" };
+    base_error error = { "" };
     assert_false(image_decode_exr(&source, &pixels, &error));
     assert_string_equal(error.text, "input.exr: needs channels R, G and B, or Y, of half or float");
 }

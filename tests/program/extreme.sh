@@ -4,7 +4,7 @@
 set -eu
 . tests/checks/common.sh
 
-# finite NAME ARGUMENT…: the image that these arguments render has finite values alone.
+# finite NAME ARGUMENT…: the image that these arguments render must have only finite values.
 finite() {
     name=$1
     shift
@@ -13,12 +13,12 @@ finite() {
     "$PROGRAM" compare "$WORK/image.exr" "$WORK/image.exr" >"$WORK/out" 2>&1 || fail "$name: $*: $(tail -n 1 "$WORK/out")"
 }
 
-# overflows: the image just written had values beyond float32 before it was.
+# overflows: the image just written must have had values beyond float32 before it was written.
 overflows() {
     grep -q 'beyond what float32 holds' "$WORK/err"
 }
 
-# refused NAME ARGUMENT…: one line that tells the limit, status 1, and no image.
+# refused NAME ARGUMENT…: the command must print one line that states the limit, with status 1, and write no image.
 refused() {
     name=$1
     shift
@@ -31,7 +31,7 @@ refused() {
 }
 
 
-# kinds COLOR: a light of each, by name.
+# kinds COLOR: prints a light of each kind, by name.
 kinds() {
     cat <<END
 point {"kind":"point","position":[0,2,2],"intensity":$1}
@@ -75,7 +75,7 @@ done
 
 # --- a scene's own: punctual lights, glowing meshes with and without a map -------------------------
 
-# scene MATERIAL LIGHT: a triangle of a material under a light, of glTF
+# scene MATERIAL LIGHT: writes a glTF triangle of a material under a light.
 scene() {
     cat >"$WORK/scene.gltf" <<END
 { "asset": { "version": "2.0" }, "scenes": [ { "nodes": [ 0, 1 ] } ],

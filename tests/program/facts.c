@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Files hold what somebody else counted: triangles, extent and surface. */
+/* Files hold what others counted: triangles, extent and surface. */
 #include "app/scene/instance.h"
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
@@ -9,7 +9,7 @@
 
 #define PI 3.14159265358979
 
-/* A torus around the y axis, of AROUND by ALONG quadrilaterals, all of them flat. */
+/* A torus around the y axis, of AROUND by ALONG flat quadrilaterals. */
 enum { AROUND = 96, ALONG = 40 };
 static const double torus_radius = 2.0, tube_radius = 0.75;
 
@@ -23,7 +23,7 @@ static void torus_vertex(int k, int i, float position[3], float normal[3]) {
     }
 }
 
-/* Trapezoids between the circles i and i + 1 of the tube. */
+/* Sums trapezoids between the circles i and i + 1 of the tube. */
 static double torus_area(void) {
     const double step = 2 * sin(PI / AROUND), side = 2 * tube_radius * sin(PI / ALONG);
     double area = 0;
@@ -35,7 +35,8 @@ static double torus_area(void) {
     return area;
 }
 
-/* As an OBJ of quadrilaterals, and as a glTF of interleaved triangles, twice as large. */
+/* Writes the torus as an OBJ of quadrilaterals, and as a glTF of interleaved triangles, twice as
+ * large. */
 static void write_torus(void) {
     static float vertices[AROUND * ALONG][6];
     static uint16_t indices[AROUND * ALONG][6];
@@ -82,7 +83,7 @@ static void write_torus(void) {
     assert_int_equal(fclose(facts), 0);
 }
 
-/* Of the files that the folder's facts.csv names; returns how many there are, -1 without it. */
+/* Checks the files that the folder's facts.csv names; returns how many there are, -1 without it. */
 static int check_facts(const char *data) {
     char path[1024], line[1024];
     snprintf(path, sizeof path, "%s/facts.csv", data);
@@ -101,7 +102,7 @@ static int check_facts(const char *data) {
         snprintf(path, sizeof path, "%s/%s", data, name);
         scene s = load(path);
         assert_int_equal(s.index_count / 3, triangles);
-        /* The facts have six digits: of the largest extent. */
+        /* The facts have six digits, relative to the largest extent. */
         double size = 0.0;
         for (int k = 0; k < 3; k++)
             size = fmax(size, fmax(fabs(lo[k]), fabs(hi[k])));
@@ -117,7 +118,7 @@ static int check_facts(const char *data) {
     return checked;
 }
 
-/* Scenes of others: in the folder LAMPION_DATA, or in data there. */
+/* Checks scenes of others, in the folder LAMPION_DATA, or in `data` there. */
 static void check_more_facts(const char *data) {
     char below[1024];
     snprintf(below, sizeof below, "%s/data", data);

@@ -31,7 +31,7 @@ add() {
     awk -v a="$1" -v b="$2" 'BEGIN { printf "%.10g", a + b }'
 }
 
-# point PLACE X,Y,Z: that point of the scene near 0, or of the far one
+# point PLACE X,Y,Z: prints that point of the scene near 0, or of the far one.
 point() {
     if [ "$1" = near ]; then echo "$2"; else
         echo "$2" | awk -F, '{ printf "%.10g,%.10g,%.10g\n", $1 + 5e6, $2 + 100, $3 - 5e6 }'
@@ -98,7 +98,7 @@ draw 'a field of lights' '' render --device cpu --method field --random-lights 2
 draw 'orthographic' '' render --device cpu --eye @2,3,5 --target @0,0.5,0 --orthographic 5
 draw 'z is up' '' render --device cpu --up z
 
-# Lights that move by paths in the world's coordinates.
+# Lights move by paths in the world's coordinates.
 for place in near far; do
     "$PROGRAM" render "$WORK/$place.gltf" --size 48x32 --device cpu --lights "$WORK/$place.json" \
         --animate "$WORK/$place-paths.json" --frames 3-3 --fps 2 -o "$WORK/$place-%d.exr"
@@ -106,16 +106,16 @@ for place in near far; do
 done
 same 'paths'
 
-# What is told is in the world, and read back is the same to the bit.
+# Printed coordinates are the world's, and are the same to the bit when read back.
 "$PROGRAM" info "$WORK/far.gltf" | grep -qx 'bounds     4999997 100 -5000003 … 5000003 [0-9.]* -4999997' ||
     fail "bounds: $("$PROGRAM" info "$WORK/far.gltf" | grep bounds)"
 "$PROGRAM" info --json "$WORK/far.gltf" >"$WORK/info"
-for line in '"position":	\[5000000, 104, -4999997\]' '"eye":	\[5000001.5, 102.25, -4999993.5\]' '"minimum":	\[4999997, 100, -5000003\]'; do
+for line in '"position": \[5000000, 104, -4999997\]' '"eye": \[5000001.5, 102.25, -4999993.5\]' '"minimum": \[4999997, 100, -5000003\]'; do
     grep -q "$line" "$WORK/info" || fail "info --json has no $line: $(cat "$WORK/info")"
 done
 "$PROGRAM" info "$WORK/near.gltf" | grep -qx 'bounds     -3 [-0-9.e]* -3 … 3 [0-9.]* 3' || fail "bounds at 0: $("$PROGRAM" info "$WORK/near.gltf")"
 
-# Probes: the same values, at places that are moved, in the engine's axes and units.
+# Probes have the same values, at positions that are moved, in the engine's axes and units.
 for place in near far; do
     "$PROGRAM" field "$WORK/$place.gltf" --grid 3x2x3 --preset unreal --minimum "$(point $place -1,0,-1)" -o "$WORK/$place.csv"
 done

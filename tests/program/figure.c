@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Drawings: app/figure. */
-#include "app/figure/figure.h"
+/* Drawings: app/image/figure.h. */
+#include "app/image/figure.h"
 #include "tests/oracle/check.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static float ball(lmp_vec3 direction, const void *user) {
 static void positive_is_above_and_negative_below_in_their_colors(void **state) {
     (void)state;
     image pixels;
-    cli_error error;
+    base_error error;
     assert_true(image_create(&pixels, 60, 50, &error));
     figure_fill(&pixels, (figure_box) { 0, 0, 60, 50 }, white);
     const figure_lobe lobe = { up_and_down, NULL, red, green };
@@ -39,7 +39,7 @@ static void positive_is_above_and_negative_below_in_their_colors(void **state) {
 static void a_ball_covers_the_area_of_a_disc_without_holes(void **state) {
     (void)state;
     image pixels;
-    cli_error error;
+    base_error error;
     const float radius = 0.8f;
     assert_true(image_create(&pixels, 100, 100, &error));
     const figure_lobe lobe = { ball, &radius, white, white };
@@ -48,7 +48,7 @@ static void a_ball_covers_the_area_of_a_disc_without_holes(void **state) {
     for (int i = 0; i < 100 * 100; i++)
         covered += pixels.rgb[3 * i] > 0.0f;
     const double disc = 3.14159265 * 0.8 * 0.8 * 47 * 47;
-    /* the pixels on the edge count whole: half a pixel more on every side */
+    /* Pixels on the edge count whole: half a pixel more on every side. */
     CHECK_WITHIN(fabs(covered - disc - 3.14159265 * 0.8 * 47), 0.01 * disc);
     image_free(&pixels);
 }
@@ -56,7 +56,7 @@ static void a_ball_covers_the_area_of_a_disc_without_holes(void **state) {
 static void what_lies_outside_of_the_image_is_not_drawn(void **state) {
     (void)state;
     image pixels;
-    cli_error error;
+    base_error error;
     const float radius = 1.0f;
     const figure_lobe lobe = { ball, &radius, red, red };
     assert_true(image_create(&pixels, 20, 20, &error));

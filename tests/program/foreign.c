@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* What programs write into the formats that Assimp reads, and how it is meant. */
+/* What programs write into the formats that Assimp reads, and what they mean by it. */
 #include "app/scene/instance.h"
 #include "app/scene/scene.h"
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
 
-/* Two triangles of two materials, of what the effects say. */
+/* Two triangles of two materials, whose effects a test chooses. */
 #define COLLADA_HEAD                                                                               \
     "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "      \
     "version=\"1.4.1\"><asset><up_axis>Y_UP</up_axis></asset>"
@@ -58,11 +58,12 @@ static void assert_opacities(const char *text, float first, float second) {
     assert_int_equal(s.mesh_count, 2);
     assert_true(material_of(&s, 0)->base_color[3] == first);
     assert_true(material_of(&s, 1)->base_color[3] == second);
-    assert_int_equal(s.left_out_count, 0);
+    assert_int_equal(s.unsupported_count, 0);
     scene_free(&s);
 }
 
-/* The format says that 1 is opaque; who writes 0 for what is, means the opposite everywhere. */
+/* The format says that 1 is opaque; a file that writes 0 for opaque means the opposite everywhere.
+ */
 static void a_collada_counts_opacity_as_its_exporter_does(void **state) {
     (void)state;
     assert_opacities(COLLADA(TRANSPARENT("1"), TRANSPARENT("0.25")), 1, 0.25f);
@@ -78,7 +79,7 @@ static void blanks_before_a_number_do_not_count(void **state) {
     scene_free(&s);
 }
 
-/* As fixed pipelines had it: emission is a part of the color, and lights nothing. */
+/* In fixed pipelines emission is a part of the color, and lights nothing. */
 static void emission_of_fixed_pipelines_is_no_lamp(void **state) {
     (void)state;
     static const char glowing[] =
@@ -94,7 +95,7 @@ static void emission_of_fixed_pipelines_is_no_lamp(void **state) {
     scene_free(&s);
 }
 
-/* White says nothing. */
+/* A file whose vertices are all white is not reported. */
 static void colors_of_vertices_are_told_of(void **state) {
     (void)state;
     for (int colored = 0; colored < 2; colored++) {
@@ -108,14 +109,14 @@ static void colors_of_vertices_are_told_of(void **state) {
                  "</mesh></object></amf>",
                  colored ? "<color><r>1</r><g>0</g><b>0</b></color>" : "");
         scene s = load_text("c.amf", text);
-        assert_int_equal(s.left_out_count, colored);
+        assert_int_equal(s.unsupported_count, colored);
         if (colored)
-            assert_string_equal(s.left_out[0].what, "vertex colors");
+            assert_string_equal(s.unsupported[0].what, "vertex colors");
         scene_free(&s);
     }
 }
 
-/* Each object of a RAW file is shown, though Assimp forgets the node of the last. */
+/* Each object of a RAW file is shown, although Assimp forgets the node of the last one. */
 static void a_raw_file_shows_all_its_objects(void **state) {
     (void)state;
     scene s = load_text("r.raw", "One\n1 1 1 0 0 0 0 1 0 1 0 0\nTwo\n1 1 1 2 0 0 2 1 0 3 0 0\n");
@@ -123,7 +124,7 @@ static void a_raw_file_shows_all_its_objects(void **state) {
     scene_free(&s);
 }
 
-/* Little-endian and big-endian, with their mark. */
+/* Converts to UTF-16, little-endian or big-endian, with a byte-order mark. */
 static size_t to_utf16(const char *text, bool big, unsigned char *out) {
     size_t used = 0;
     out[used++] = big ? 0xfe : 0xff;
@@ -155,7 +156,7 @@ static void files_may_be_utf16(void **state) {
         }
 }
 
-/* Assimp reads what lies beyond an array, other bytes in every run. */
+/* Assimp would read past the array, other bytes in every run. */
 static void an_accessor_past_its_array_is_refused(void **state) {
     (void)state;
     static const char good[] = COLLADA(DIFFUSE("1 1 1 1"), DIFFUSE("1 1 1 1"));
@@ -167,7 +168,7 @@ static void an_accessor_past_its_array_is_refused(void **state) {
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         char text[sizeof good + 64];
         scene s;
-        cli_error error = { "" };
+        base_error error = { "" };
         const char *const at = strstr(good, changes[i][0]);
         assert_non_null(at);
         snprintf(text, sizeof text, "%.*s%s%s", (int)(at - good), good, changes[i][1],

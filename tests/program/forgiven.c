@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* One bad detail loses that detail, not the scene: what is drawn without it, and what is said. */
+/* One invalid detail costs that detail, not the scene: what is drawn without it, and what is
+ * reported. */
 #include "app/scene/instance.h"
 #include "app/scene/scene.h"
 #include "tests/program/folder.h"
@@ -8,30 +9,30 @@
 
 #include <unistd.h>
 
-/* All that is left out, as the line on stderr has it. */
-static void said_of(const scene_left_out *items, size_t count, char *text, size_t size) {
+/* Formats all that is unsupported, as the line on stderr has it. */
+static void said_of(const scene_unsupported *items, size_t count, char *text, size_t size) {
     text[0] = 0;
     for (size_t i = 0; i < count; i++) {
         char one[256];
-        scene_left_out_text(&items[i], one, sizeof one);
+        scene_unsupported_text(&items[i], one, sizeof one);
         snprintf(text + strlen(text), size - strlen(text), "%s%s", i ? ", " : "", one);
     }
 }
 
 /* --- glTF: changes to a valid document -------------------------------------------------------- */
 
-/* What is said of the document as it is. */
+/* What is reported of the document as it is. */
 #define USUAL       "missing texture coordinates (1 primitive)"
 #define USUAL_AFTER "range (1 light)"
 
 typedef struct forgiven {
     const char *from, *to;
-    const char *said; /* beside the usual; NULL: nothing */
+    const char *said; /* beside the usual; NULL means nothing */
 } forgiven;
 
 static const forgiven gltf_changes[] = {
     { "{\"asset\"", "{\"asset\"", NULL },
-    /* what only says something again, or to nobody */
+    /* changes that only repeat something, or concern nobody */
     { "[\"KHR_texture_transform\"]", "[\"KHR_materials_sheen\"]", NULL },
     { "\"KHR_lights_punctual\",\"KHR", "\"KHR_texture_transform\",\"KHR", NULL },
     { "\"max\":[1,1,0]", "\"max\":[1,1]", NULL },
@@ -46,7 +47,7 @@ static const forgiven gltf_changes[] = {
       "\"componentType\":5120,\"count\":4,\"type\":\"VEC3\"",
       "undeclared KHR_mesh_quantization (1 attribute)" },
     { "\"target\":34962", "\"target\":1", "unknown target (1 buffer view)" },
-    /* materials that are drawn without what an extension adds, though they require it */
+    /* materials drawn without what an extension adds, although the file requires it */
     { "[\"KHR_texture_transform\"]",
       "[\"KHR_materials_anisotropy\",\"KHR_materials_iridescence\","
       "\"KHR_materials_dispersion\",\"KHR_materials_variants\"]",
@@ -55,12 +56,12 @@ static const forgiven gltf_changes[] = {
       "anisotropy (1 material)" },
     { "\"doubleSided\":true", "\"extensions\":{\"KHR_materials_dispersion\":{}}",
       "dispersion (1 material)" },
-    /* variants to choose by --variant: nothing is left out */
+    /* variants to choose by --variant, so nothing is left out */
     { "\"mode\":4", "\"extensions\":{\"KHR_materials_variants\":{\"mappings\":[]}}", NULL },
     { "\"mode\":4", "\"extensions\":{\"KHR_materials_variants\":{}}", NULL },
     { "{\"source\":0,", "{\"extensions\":{\"KHR_texture_basisu\":{\"source\":0}},\"source\":0,",
       "KHR_texture_basisu (1 texture)" },
-    /* numbers: rounded, and out of range */
+    /* numbers that are rounded, and out of range */
     { "\"metallicFactor\":0.5", "\"metallicFactor\":1.0000001", NULL },
     { "\"metallicFactor\":0.5", "\"metallicFactor\":1.5",
       "metallicFactor out of range (1 material)" },
@@ -106,12 +107,12 @@ static void a_gltf_is_read_but_for_the_detail(void **state) {
         const forgiven *c = &gltf_changes[i];
         char *text = changed(c->from, c->to), said[1024];
         scene_builder builder;
-        cli_error error;
+        base_error error;
         if (!reads(text, &builder, &error))
             fail_msg("%s: %s", c->to, error.text);
-        said_of(builder_items(&builder, BLOB_LEFT_OUT), builder_count(&builder, BLOB_LEFT_OUT),
-                said, sizeof said);
-        const size_t count = builder_count(&builder, BLOB_LEFT_OUT);
+        said_of(builder_items(&builder, BLOB_UNSUPPORTED),
+                builder_count(&builder, BLOB_UNSUPPORTED), said, sizeof said);
+        const size_t count = builder_count(&builder, BLOB_UNSUPPORTED);
         if (!strstr(said, USUAL) || !strstr(said, USUAL_AFTER) || count != 2 + (c->said != NULL) ||
             (c->said && !strstr(said, c->said)))
             fail_msg("%s: says \"%s\" instead of \"%s\"", c->to, said, c->said ? c->said : "");
@@ -133,13 +134,13 @@ static const scene_material *material_of(const scene *world) {
 #define HEAD                                                                                       \
     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
 
-/* The factor alone is what is drawn of a base color whose image is not there; as soon as it is, the
- * scene is another. */
+/* Without its image a base color is drawn by its factor alone; once the image exists, the scene is
+ * another. */
 static void an_image_that_appears_is_drawn(void **state) {
     (void)state;
     const scene_options by_cache = { 0 };
     scene world;
-    cli_error error;
+    base_error error;
     folder_write_text("late.gltf",
                       HEAD "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":"
                            "[0.25,0.5,0.75,1],\"baseColorTexture\":{\"index\":0}}}],"
@@ -151,19 +152,19 @@ static void an_image_that_appears_is_drawn(void **state) {
         if (!scene_load(in_folder("late.gltf"), &by_cache, &world, &error))
             fail_msg("%s", error.text);
         assert_int_equal(world.cached, i % 2);
-        assert_int_equal(world.left_out_count, i < 2 ? 2 : 1); /* and coordinates */
+        assert_int_equal(world.unsupported_count, i < 2 ? 2 : 1); /* the image, and coordinates */
         assert_int_equal(material_of(&world)->base_color_map.texture, i < 2 ? -1 : 0);
         CHECK_WITHIN(fabs((double)material_of(&world)->base_color[2] - 0.75), 1e-7);
         scene_free(&world);
     }
 }
 
-/* A tail of any bytes after a GLB's end, NULs where its JSON is padded, a byte-order mark. */
+/* Ignored are any bytes after a GLB's end, NULs where its JSON is padded, and a byte-order mark. */
 static void what_surrounds_a_document_is_passed_over(void **state) {
     (void)state;
     size_t size;
     scene_builder builder;
-    cli_error error;
+    base_error error;
     unsigned char *glb = pack_glb(document, &size);
     unsigned char *longer = malloc(size + 1);
     assert_non_null(longer);
@@ -187,7 +188,7 @@ static void what_surrounds_a_document_is_passed_over(void **state) {
     scene_free(&world);
 }
 
-/* The same triangle by characters and escapes (RFC 2397). */
+/* The same triangle is given by characters and escapes (RFC 2397). */
 static void data_need_no_base64(void **state) {
     (void)state;
     char text[2048], bytes_of[3 * 36 + 1];
@@ -206,8 +207,8 @@ static void data_need_no_base64(void **state) {
     scene_free(&world);
 }
 
-/* A root of the scene whose parent is not in it stands where its own transform says; in a tree that
- * is shown it would be there twice. */
+/* A root of the scene whose parent is not in it takes its own transform; in a tree that is shown it
+ * would occur twice. */
 static void a_root_may_be_the_child_of_what_is_not_shown(void **state) {
     (void)state;
     static const char format[] =
@@ -216,7 +217,7 @@ static void a_root_may_be_the_child_of_what_is_not_shown(void **state) {
         "{\"mesh\":0,\"translation\":[0,2,0],\"children\":[2]},{\"translation\":[1,0,0]}],%s";
     char text[2048];
     scene world;
-    cli_error error;
+    base_error error;
     snprintf(text, sizeof text, format, "1", TRIANGLE);
     folder_write_text("root.gltf", text);
     world = load(in_folder("root.gltf"));
@@ -244,15 +245,15 @@ static void a_root_may_be_the_child_of_what_is_not_shown(void **state) {
 /* Assimp looks for an animation beside every such mesh. */
 static void a_file_that_is_only_looked_for_may_be_missing(void **state) {
     (void)state;
-    cli_error error;
+    base_error error;
     scene world;
     folder_write_text("man.md5mesh", MD5);
     if (!scene_load(in_folder("man.md5mesh"), &(scene_options) { .no_cache = true }, &world,
                     &error))
         fail_msg("%s", error.text);
     assert_int_equal(world.index_count, 3);
-    for (size_t i = 0; i < world.left_out_count; i++)
-        assert_null(strstr(world.left_out[i].what, "md5anim"));
+    for (size_t i = 0; i < world.unsupported_count; i++)
+        assert_null(strstr(world.unsupported[i].what, "md5anim"));
     scene_free(&world);
 }
 

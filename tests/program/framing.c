@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* From where a scene without cameras is seen: sixty shapes, each from where a person would stand.
- */
+/* The view of a scene without cameras: sixty shapes, each from where a person would stand. */
+#include "app/scene/environment.h"
 #include "app/scene/space.h"
 
 #include "tests/oracle/check.h"
@@ -42,7 +42,7 @@ static void tube(shape *s, int kind) {
         shape_lie(s);
 }
 
-/* Part of a ball's shell, open below `from` and above `to` (sines of the elevation). */
+/* Makes part of a ball's shell, open below `from` and above `to` (sines of the elevation). */
 static void shell(shape *s, float inner, float from, float to, int first, int last) {
     float profile[66][2];
     for (int i = 0; i < 33; i++) {
@@ -99,9 +99,33 @@ static void well(shape *s, int kind) {
     REVOLVE(s, vec(0, high + 1.3f, 0), 0, 64, { 0, 0.7f }, { 1.4f, -0.1f });
 }
 
+/* Makes a beam along z with as many sides as a pencil, and one that is round. */
+static void pencil(shape *s, int kind) {
+    const int sides = kind == 0 ? 8 : 32;
+    const double part = 2 * 3.14159265358979 / sides;
+    for (int i = 0; i < sides; i++) {
+        const double a = part * (i + 0.5), b = part * (i + 1.5);
+        const float x[2] = { (float)cos(a), (float)cos(b) },
+                    y[2] = { (float)sin(a), (float)sin(b) };
+        const lmp_vec3 quad[4] = {
+            { x[0], y[0], 39 }, { x[0], y[0], -39 }, { x[1], y[1], -39 }, { x[1], y[1], 39 }
+        };
+        shape_quad(s, quad, false);
+        shape_triangle(s, vec(0, 0, 39), quad[0], quad[3]);
+        shape_triangle(s, vec(0, 0, -39), quad[2], quad[1]);
+    }
+}
+
+/* Makes a tall box and a small one far beside it. */
+static void boards(shape *s, int kind) {
+    (void)kind;
+    block(s, 0, 0, 0, 0.1f, 0.74f, 0.1f);
+    block(s, -0.55f, -0.34f, -0.2f, 0.07f, 0.19f, 0.12f);
+}
+
 /* --- things: with corners --------------------------------------------------------------------- */
 
-/* Bodies with an inside: a floor, seats, and windows all around. */
+/* Makes bodies with an inside: a floor, seats, and windows all around. */
 static void car(shape *s, int kind) {
     const float length = kind == 2 ? 5 : 2, roof = kind == 1 ? 0.9f : 1.5f;
     const lmp_vec3 low = vec(-0.9f, 0.3f, -length), high = vec(0.9f, 0.9f, length);
@@ -140,7 +164,7 @@ static void cottage(shape *s, int kind) {
         };
         shape_quad(s, roof, side > 0);
     }
-    if (kind > 0) /* with rooms in it */
+    if (kind > 0) /* with rooms inside */
         shape_box(s, vec(-2.8f, 0.1f, -3.8f), vec(2.8f, 2.9f, kind == 1 ? 3.8f : 0), true, 0);
     if (kind == 2)
         shape_box(s, vec(-2.8f, 0.1f, 0.1f), vec(2.8f, 2.9f, 3.8f), true, 0);
@@ -176,7 +200,7 @@ static void furniture(shape *s, int kind) {
 
 /* --- places ----------------------------------------------------------------------------------- */
 
-/* Nothing of these is to be seen from outside. */
+/* Makes rooms, of which nothing should be seen from outside. */
 static void room(shape *s, int kind) {
     const float size[][3] = { { 4, 3, 5 },   { 20, 4, 30 }, { 2.5f, 3, 25 }, { 6, 3, 8 },
                               { 12, 6, 12 }, { 5, 3, 5 },   { 8, 30, 8 },    { 6, 3, 6 } };
@@ -186,7 +210,7 @@ static void room(shape *s, int kind) {
         block(s, (float)(i % 3 - 1) * 1.8f, 0, (float)(i / 3) * 3 - 1.5f, 0.8f, 0.9f, 1.4f);
     for (int i = 0; i < 16 && kind == 4; i++)
         block(s, (float)(i % 4) * 2.5f - 3.75f, 0, (float)(i / 4) * 2.5f - 3.75f, 0.5f, 6, 0.5f);
-    if (kind == 5) { /* a wall with a window in it, and what is left of the wall around it */
+    if (kind == 5) { /* a wall with a window, and the rest of the wall around it */
         const float walls[4][4] = {
             { -z, z, 0, 1 }, { -z, z, 2, 3 }, { -z, -1, 1, 2 }, { 1, z, 1, 2 }
         };
@@ -198,7 +222,7 @@ static void room(shape *s, int kind) {
             shape_quad(s, quad, true);
         }
     }
-    if (kind == 7) /* and a second room beside it */
+    if (kind == 7) /* and a second room beside the first */
         shape_box(s, vec(x + 0.2f, 0, -z), vec(3 * x, 3, z), true, 0);
 }
 
@@ -207,7 +231,7 @@ static void sky(shape *s, int kind) {
     REVOLVE(s, here, 0, 64, { 0, 1 }, { 0.7f, 0.7f }, { 1, 0 }, { 1, -0.1f }, { 0, -0.1f });
 }
 
-/* Without one of its sides. */
+/* Makes a box without one of its sides. */
 static void stage(shape *s, int side) {
     shape_box(s, vec(-2, 0, -2), vec(2, 3, 2), true, 1 << side);
     block(s, 0.5f, 0, 0.5f, 0.8f, 1.5f, 0.8f);
@@ -220,8 +244,8 @@ static void dolls(shape *s, int kind) {
                   vec((float)(i % 2) * 4, (float)(i / 2) * 3 + 3, 2), true, open);
 }
 
-/* Four fronts of houses around a yard, and what is behind them; kind 2: walls that one looks over.
- */
+/* Makes the fronts of four houses around a yard, and what is behind them; in kind 2, walls that one
+ * looks over. */
 static void courtyard(shape *s, int kind) {
     const float high = kind == 2 ? 1.2f : kind == 1 ? 14 : 10;
     shape_box(s, vec(-8, 0, -10), vec(8, high, 10), true, 1 << 3);
@@ -266,7 +290,7 @@ static const struct {
     const char *name;
     void (*make)(shape *s, int kind);
     int count;
-    const char *inside; /* of each kind: i, or o */
+    const char *inside; /* expected framing of each kind: i for inside, o for outside */
 } shapes[] = {
     { "torus", torus, 4, "oooo" },    { "tube", tube, 3, "ooo" },
     { "helmet", helmet, 4, "oooo" },  { "shield", shield, 3, "ooo" },
@@ -274,7 +298,7 @@ static const struct {
     { "car", car, 4, "oooo" },        { "crate", crate, 3, "ooo" },
     { "cottage", cottage, 3, "ooo" }, { "furniture", furniture, 5, "ooooo" },
     { "room", room, 8, "iiiiiiii" },  { "sky", sky, 1, "i" },
-    { "stage", stage, 6, "oooioo" }, /* the fourth lacks its roof alone, as a yard does */
+    { "stage", stage, 6, "oooioo" }, /* the fourth lacks only its roof, as a yard does */
     { "dolls", dolls, 3, "ooo" },     { "courtyard", courtyard, 3, "iio" },
     { "street", street, 3, "ooo" },   { "terrain", terrain, 4, "oooo" },
 };
@@ -298,7 +322,39 @@ static void sixty_shapes_are_seen_from_where_a_person_would_stand(void **state) 
     print_message("tried: %d shapes\n", tried);
 }
 
-/* Of a box without one of its walls: its inside, from that side. */
+/* Objects that show their backs are no rooms, unless they have a level floor and much space. */
+static void objects_inside_out_are_seen_from_outside(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        void (*make)(shape *s, int kind);
+        int first, count;
+    } objects[] = { { "torus", torus, 0, 4 },   { "tube", tube, 1, 2 },
+                    { "helmet", helmet, 0, 4 }, { "shield", shield, 0, 3 },
+                    { "bowl", bowl, 0, 4 },     { "well", well, 0, 2 },
+                    { "car", car, 0, 4 },       { "pencil", pencil, 0, 2 },
+                    { "boards", boards, 0, 1 } };
+    shape *s = malloc(sizeof *s);
+    scene_material material = scene_material_plain();
+    material.flags |= SCENE_DOUBLE_SIDED;
+    for (size_t i = 0; i < sizeof objects / sizeof *objects; i++)
+        for (int kind = objects[i].first; kind < objects[i].first + objects[i].count; kind++) {
+            shape_clear(s);
+            objects[i].make(s, kind);
+            shape_invert(s);
+            scene world = shape_scene(s);
+            scene_frame frame = { .wanted = SCENE_FRAMING_AUTO };
+            world.frame = &frame;
+            world.materials = &material;
+            world.material_count = 1;
+            if (scene_is_inside(&world))
+                fail_msg("%s %d is seen from inside", objects[i].name, kind);
+            assert_true(environment_suits_shadows(true, &world));
+        }
+    free(s);
+}
+
+/* A box without one wall is framed from that side, and shows its inside. */
 static void a_box_is_looked_into_from_where_it_is_open(void **state) {
     (void)state;
     static const struct {
@@ -320,8 +376,30 @@ static void a_box_is_looked_into_from_where_it_is_open(void **state) {
     free(s);
 }
 
-/* Framing that is chosen counts against the shape and against the file's camera; but inside, the
- * file's is taken if it stands there. */
+/* The sky reaches what is seen of every shape from outside, except of a box without a floor, whose
+ * inside is seen through walls that show their backs: shadows do not suit that one. */
+static void the_sky_reaches_what_is_seen_from_outside(void **state) {
+    (void)state;
+    shape *s = malloc(sizeof *s);
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        for (int kind = 0; kind < shapes[i].count; kind++) {
+            shape_clear(s);
+            shapes[i].make(s, kind);
+            scene world = shape_scene(s);
+            scene_frame frame = { .wanted = SCENE_FRAMING_AUTO };
+            world.frame = &frame;
+            const bool floorless = shapes[i].make == stage && kind == 2;
+            const bool outside = !scene_is_inside(&world);
+            if (outside && (frame.sky < 0.1f) != floorless)
+                fail_msg("%s %d: %g of the sky", shapes[i].name, kind, (double)frame.sky);
+            assert_int_equal(environment_suits_shadows(true, &world), outside && !floorless);
+            assert_true(environment_suits_shadows(false, &world));
+        }
+    free(s);
+}
+
+/* A framing that is chosen overrides the shape's and the file's camera; but for inside, the file's
+ * camera is taken if it stands inside. */
 static void the_framing_that_is_chosen_is_taken(void **state) {
     (void)state;
     shape *s = malloc(sizeof *s);
@@ -346,8 +424,8 @@ static void the_framing_that_is_chosen_is_taken(void **state) {
     free(s);
 }
 
-/* A yard in a wide plain: all lights are before the camera that stands in it, clear of its walls.
- */
+/* In a yard on a wide plain, all lights are in front of the camera that stands in it, clear of its
+ * walls. */
 static void random_lights_are_where_the_camera_of_a_large_scene_looks(void **state) {
     (void)state;
     const scene_camera own = {
@@ -358,7 +436,7 @@ static void random_lights_are_where_the_camera_of_a_large_scene_looks(void **sta
     courtyard(s, 0);
     shape_box(s, vec(-400, -0.1f, -400), vec(400, -0.05f, 400), false, 0);
     scene world = shape_scene(s);
-    cli_error error;
+    base_error error;
     world.cameras = &own;
     world.camera_count = 1;
     world.lights = calloc(SCENE_LIGHTS_MAX, sizeof *world.lights);
@@ -376,7 +454,9 @@ static void random_lights_are_where_the_camera_of_a_large_scene_looks(void **sta
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sixty_shapes_are_seen_from_where_a_person_would_stand),
+        cmocka_unit_test(objects_inside_out_are_seen_from_outside),
         cmocka_unit_test(a_box_is_looked_into_from_where_it_is_open),
+        cmocka_unit_test(the_sky_reaches_what_is_seen_from_outside),
         cmocka_unit_test(the_framing_that_is_chosen_is_taken),
         cmocka_unit_test(random_lights_are_where_the_camera_of_a_large_scene_looks),
     };

@@ -12,7 +12,7 @@
 
 static scene_camera read_camera(const char *lens) {
     scene_builder builder;
-    cli_error error;
+    base_error error;
     char *text = changed(PERSPECTIVE, lens);
     if (!reads(text, &builder, &error))
         fail_msg("%s", error.text);
@@ -31,7 +31,7 @@ static void perspective_has_an_angle_and_no_height(void **state) {
     CHECK_WITHIN(fabs((double)scene_camera_height(&camera, 3) - 6 * tan(0.3)), 1e-6);
 }
 
-/* xmag and ymag are half of what is seen, and only their size counts. */
+/* xmag and ymag are half of what is seen; their signs do not count. */
 static void parallel_rays_have_a_height_at_any_distance(void **state) {
     (void)state;
     const scene_camera camera = read_camera(PARALLEL("\"xmag\":3,\"ymag\":-2"));
@@ -52,12 +52,12 @@ static void a_scene_goes_without_cameras_that_see_nothing(void **state) {
     for (size_t i = 0; i < sizeof lenses / sizeof *lenses; i++) {
         char *text = changed(PERSPECTIVE, lenses[i]);
         scene_builder builder;
-        cli_error error;
+        base_error error;
         bool said = false;
         if (!reads(text, &builder, &error))
             fail_msg("%s: %s", lenses[i], error.text);
-        const scene_left_out *items = builder_items(&builder, BLOB_LEFT_OUT);
-        for (size_t k = 0; k < builder_count(&builder, BLOB_LEFT_OUT); k++)
+        const scene_unsupported *items = builder_items(&builder, BLOB_UNSUPPORTED);
+        for (size_t k = 0; k < builder_count(&builder, BLOB_UNSUPPORTED); k++)
             said = said || strcmp(items[k].noun, "camera") == 0;
         assert_true(said);
         assert_int_equal(builder_count(&builder, BLOB_CAMERAS), 0);
@@ -66,7 +66,7 @@ static void a_scene_goes_without_cameras_that_see_nothing(void **state) {
     }
 }
 
-/* What is nearer or farther is not seen; planes that make no sense are none. */
+/* What is nearer or farther is not seen; impossible planes are ignored. */
 static void a_camera_keeps_its_clip_planes(void **state) {
     (void)state;
     static const struct {

@@ -7,7 +7,7 @@
 
 /* --- the bytes -------------------------------------------------------------------------------- */
 
-/* The document with its mesh's indices from accessor 1 (bytes), 2 (shorts) or 3 (words). */
+/* The document takes its mesh's indices from accessor 1 (bytes), 2 (shorts) or 3 (words). */
 static void an_index_past_the_vertices_is_refused(void **state) {
     (void)state;
     static const struct {
@@ -49,15 +49,15 @@ static void a_number_that_is_not_finite_is_refused(void **state) {
     fill_bytes();
 }
 
-/* What accessors hold, in every component type: the positions of one triangle, by
- * KHR_mesh_quantization where they are no floats. */
+/* Accessors hold the positions of one triangle in every component type, by KHR_mesh_quantization
+ * where they are not floats. */
 static void every_component_type_is_read(void **state) {
     (void)state;
     static const struct {
         int type;
         bool normalized;
         size_t size;
-        long one; /* the integer that stands for 1, 0: a float */
+        long one; /* the integer that stands for 1, or 0 for floats */
     } types[] = { { 5120, false, 1, 1 },  { 5121, false, 1, 1 },    { 5122, false, 2, 1 },
                   { 5123, false, 2, 1 },  { 5126, false, 4, 0 },    { 5120, true, 1, 127 },
                   { 5121, true, 1, 255 }, { 5122, true, 2, 32767 }, { 5123, true, 2, 65535 } };
@@ -82,7 +82,7 @@ static void every_component_type_is_read(void **state) {
                    types[i].one ? (const void *)&types[i].one : &one, types[i].size);
         }
         scene_builder builder;
-        cli_error error;
+        base_error error;
         if (!reads(json, &builder, &error))
             fail_msg("type %d: %s", types[i].type, error.text);
         const scene_vertex *vertices = builder_items(&builder, BLOB_VERTICES);
@@ -102,8 +102,8 @@ static void sparse_accessors_replace_their_elements(void **state) {
         "\"componentType\":5121},\"values\":{\"bufferView\":6}},";
     char to[300];
     scene_builder builder;
-    cli_error error;
-    /* Of the translations, the second is (1, 1, 1). */
+    base_error error;
+    /* The second translation is (1, 1, 1). */
     snprintf(to, sizeof to, format, 2);
     char *text = changed("{\"bufferView\":0,\"byteOffset\":0,", to);
     assert_true(reads(text, &builder, &error));
@@ -129,7 +129,7 @@ static void sparse_accessors_replace_their_elements(void **state) {
 
 static void expect_bytes(const void *data, size_t size, const char *refusal) {
     scene_builder builder;
-    cli_error error;
+    base_error error;
     const bool ok = reads_bytes(data, size, &builder, &error);
     if (ok != (refusal == NULL) || (refusal && !strstr(error.text, refusal)))
         fail_msg("\"%s\" instead of \"%s\"", ok ? "read" : error.text, refusal ? refusal : "read");
@@ -175,10 +175,10 @@ static void what_is_no_json_is_refused(void **state) {
         { " \t\r\n{\"asset\":{\"version\":\"2.0\"}}\n", NULL },
         { "\xef\xbb\xbf{\"asset\":{\"version\":\"2.0\"}}", NULL },
         { "{\"asset\":{\"version\":\"2.0\"}} more",
-          "is not valid JSON: line 1, column 29: something stands after its end" },
+          "is not valid JSON: line 1, column 32: end of file expected near 'more'" },
         { "{\"asset\":{\"version\":\"2.0\"}}\n}", "is not valid JSON: line 2" },
         { "{\"asset\":{\"version\":\"2.0\"},}", "a comma stands before the bracket that closes" },
-        { "{\"asset\":{\"version\":\"2.0\"},\"a\":01}", "a number does not begin with 0" },
+        { "{\"asset\":{\"version\":\"2.0\"},\"a\":01}", "invalid token near '0'" },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":+1}", "is not valid JSON" },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":1.}", "is not valid JSON" },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":.5}", "a number begins with a digit or -" },
@@ -189,6 +189,8 @@ static void what_is_no_json_is_refused(void **state) {
         { "{\"asset\":{\"version\":\"2.0\\u0000\"}}", "is not valid JSON" },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":\"\\u00e9\\n\"}", NULL },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":\"\\x\"}", "is not valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\"},\"a\":\"\\ud83c\"}", "is not valid JSON" },
+        { "{\"asset\":{\"version\":\"2.0\"},\"Z\xfcrich\":\"Z\xfcrich\"}", NULL },
         { "{\"asset\":{\"version\":\"2.0\"},\"a\":\"\n\"}", "is not valid JSON" },
         { "{\"asset\":{\"version\":\"2.0\"},'a':1}", "is not valid JSON" },
         { "{\"asset\":{\"version\":\"2.0\"}", "is not valid JSON" },
@@ -199,7 +201,7 @@ static void what_is_no_json_is_refused(void **state) {
         expect_bytes(cases[i].text, strlen(cases[i].text), cases[i].refusal);
 }
 
-/* --- what is left out ------------------------------------------------------------------------- */
+/* --- what is unsupported ---------------------------------------------------------------------- */
 
 #define MATERIAL(name)                                                                             \
     {                                                                                              \
@@ -207,7 +209,7 @@ static void what_is_no_json_is_refused(void **state) {
             name " (1 material)"                                                                   \
     }
 
-static void what_is_left_out_is_named(void **state) {
+static void what_is_unsupported_is_named(void **state) {
     (void)state;
     static const struct {
         const char *from, *to, *named;
@@ -232,12 +234,12 @@ static void what_is_left_out_is_named(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char *text = changed(cases[i].from, cases[i].to), line[200] = "";
         scene_builder builder;
-        cli_error error;
+        base_error error;
         assert_true(reads(text, &builder, &error));
         bool found = cases[i].named == NULL;
-        const scene_left_out *items = builder_items(&builder, BLOB_LEFT_OUT);
-        for (size_t k = 0; k < builder_count(&builder, BLOB_LEFT_OUT); k++) {
-            scene_left_out_text(&items[k], line, sizeof line);
+        const scene_unsupported *items = builder_items(&builder, BLOB_UNSUPPORTED);
+        for (size_t k = 0; k < builder_count(&builder, BLOB_UNSUPPORTED); k++) {
+            scene_unsupported_text(&items[k], line, sizeof line);
             found = found || strcmp(line, cases[i].named) == 0;
         }
         if (!found)
@@ -255,7 +257,7 @@ int main(void) {
         cmocka_unit_test(sparse_accessors_replace_their_elements),
         cmocka_unit_test(damaged_containers_are_refused),
         cmocka_unit_test(what_is_no_json_is_refused),
-        cmocka_unit_test(what_is_left_out_is_named),
+        cmocka_unit_test(what_is_unsupported_is_named),
     };
     fill_bytes();
     return cmocka_run_group_tests(tests, NULL, NULL);

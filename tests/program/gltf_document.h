@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* gltf_document.h - a valid glTF document to change, and what becomes of it. */
+/* gltf_document.h - a valid glTF document to change, and functions that read it. */
 #ifndef LAMPION_GLTF_DOCUMENT_H
 #define LAMPION_GLTF_DOCUMENT_H
 
-#include "app/scene/gltf.h"
+#include "app/scene/gltf/gltf.h"
 
 #include "tests/oracle/check.h"
 
@@ -12,8 +12,8 @@
 
 /* --- a valid document ------------------------------------------------------------------------- */
 
-/* Its bytes: four positions, three indices in each of three types, two matrices, two times, two
- * translations, a joint and a weight a vertex, and an image of one pixel. */
+/* The document's bytes: four positions, three indices in each of three types, two matrices, two
+ * times, two translations, a joint and a weight per vertex, and an image of one pixel. */
 enum {
     POSITIONS = 0,
     BYTES = 48,
@@ -128,18 +128,18 @@ static inline unsigned char *pack_glb(const char *json, size_t *size) {
     return glb;
 }
 
-/* Whether these bytes are read, and into what. */
+/* Whether these bytes are read; receives what they hold. */
 static inline bool reads_bytes(const void *data, size_t size, scene_builder *builder,
-                               cli_error *error) {
+                               base_error *error) {
     source_set sources = { .subject = "input", .folder = "/nowhere" };
-    *error = (cli_error) { .text = "" };
+    *error = (base_error) { .text = "" };
     memset(builder, 0, sizeof *builder);
     const bool ok = gltf_add(data, size, &sources, builder, error);
     sources_free(&sources);
     return ok;
 }
 
-static inline bool reads(const char *json, scene_builder *builder, cli_error *error) {
+static inline bool reads(const char *json, scene_builder *builder, base_error *error) {
     size_t size;
     unsigned char *glb = pack_glb(json, &size);
     const bool ok = reads_bytes(glb, size, builder, error);
@@ -149,7 +149,7 @@ static inline bool reads(const char *json, scene_builder *builder, cli_error *er
 
 static inline void expect(const char *json, const char *refusal, const char *what) {
     scene_builder builder;
-    cli_error error;
+    base_error error;
     const bool ok = reads(json, &builder, &error);
     if (ok != (refusal == NULL) || (refusal && !strstr(error.text, refusal)))
         fail_msg("%s: \"%s\" instead of \"%s\"", what, ok ? "read" : error.text,
@@ -157,7 +157,7 @@ static inline void expect(const char *json, const char *refusal, const char *wha
     builder_free(&builder);
 }
 
-/* A text with the first `from` in it replaced by `to`; to be freed. */
+/* Returns a text with the first `from` replaced by `to`; the caller frees it. */
 static inline char *replaced(const char *in, const char *from, const char *to) {
     const char *found = strstr(in, from);
     if (!found)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* glTF files whose primitives Draco compressed. */
-#include "app/scene/draco.h"
+#include "app/scene/gltf/draco.h"
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
 
@@ -99,7 +99,7 @@ static void a_compressed_mesh_is_what_it_was(void **state) {
 
 static void refuse(const char *reason) {
     scene s;
-    cli_error error = { "" };
+    base_error error = { "" };
     if (scene_load(in_folder("sheet.gltf"), &(scene_options) { .no_cache = true }, &s, &error))
         fail_msg("read, and not refused as \"%s\"", reason);
     if (!strstr(error.text, reason))
@@ -119,7 +119,7 @@ static void what_cannot_be_decoded_is_named(void **state) {
     refuse("mesh 0 is compressed by Draco and is not an indexed list of triangles");
 }
 
-/* Bytes that claim a billion faces take no memory for them. */
+/* Bytes that claim a billion faces must not allocate memory for them. */
 static void few_bytes_are_not_many_faces(void **state) {
     (void)state;
     const unsigned char bytes[64] = "DRACO\2\2\1\0\0\0\377\377\377\377\3\377\377\377\377\3";
@@ -130,11 +130,11 @@ static void few_bytes_are_not_many_faces(void **state) {
 
 enum { CELLS = 1 << 18 };
 
-/* The vertices of a scene by the cells of a grid in which they lie. */
+/* The vertices of a scene, by the cells of a grid that contain them. */
 typedef struct cells {
     const scene *world;
     float size;
-    int32_t *first, *next; /* of a cell, and after a vertex; -1: none */
+    int32_t *first, *next; /* first vertex of a cell, and next after a vertex; -1 for none */
 } cells;
 
 static uint32_t cell_of(const cells *c, const float p[3], int dx, int dy, int dz) {
@@ -171,7 +171,8 @@ static float nearest2(const cells *c, const float p[3]) {
     return least;
 }
 
-/* Every vertex of one has one of the other within half a step of 14 bits of the largest mesh. */
+/* Every vertex of one scene has a vertex of the other within half a step of 14 bits of the largest
+ * mesh. */
 static void check_near(const scene *a, const scene *b) {
     float step = 0;
     for (size_t i = 0; i < b->mesh_count; i++)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* KHR_lights_punctual: each light becomes one of the library's kind, where its node is, and a point
- * or parallel light takes the size that the command line gives it. */
+/* KHR_lights_punctual: each light becomes one of the library's kinds at its node, and a point or
+ * parallel light takes the size that the command line gives it. */
 #include "tests/program/gltf_document.h"
 
 #include <math.h>
@@ -10,10 +10,10 @@
     "{\"innerConeAngle\":0.1,\"outerConeAngle\":0.5}"
 #define NODE "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}"
 
-/* The document's only light. */
+/* Returns the document's only light. */
 static lmp_light read_light(const char *from, const char *to) {
     scene_builder builder;
-    cli_error error;
+    base_error error;
     char *text = changed(from, to);
     if (!reads(text, &builder, &error))
         fail_msg("%s: %s", to, error.text);
@@ -33,7 +33,7 @@ static void assert_vector(lmp_vec3 v, double x, double y, double z) {
 
 static void a_spot_keeps_its_cones_and_shines_along_minus_z(void **state) {
     (void)state;
-    /* A quarter turn around y: the node's -z is the world's -x. */
+    /* After a quarter turn around y the node's -z is the world's -x. */
     const lmp_light light = read_light(NODE, "{\"rotation\":[0,0.70710678,0,0.70710678],"
                                              "\"translation\":[1,2,3],\"scale\":[2,2,2],"
                                              "\"extensions\":{\"KHR_lights_punctual\":"
@@ -53,7 +53,7 @@ static void a_cone_that_is_not_given_is_an_eighth_of_a_circle(void **state) {
     CHECK_WITHIN(fabs((double)light.outer - M_PI / 4), 1e-6);
 }
 
-/* Its rays go along -z, so that it is seen toward +z; its position is of no account. */
+/* The light's rays go along -z, so that it is seen toward +z; its position does not count. */
 static void parallel_light_is_directional(void **state) {
     (void)state;
     const lmp_light light = read_light(SPOT, "\"directional\",\"intensity\":3,\"color\":[0,1,0.5]");
@@ -74,8 +74,54 @@ static void a_point_is_a_point_and_with_a_radius_a_sphere(void **state) {
     CHECK_WITHIN(fabs(M_PI * 0.25 * (double)light.radiance.b - 3), 1e-6);
 }
 
+#define PUNCTUAL                                                                                   \
+    "\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"spot\",\"color\":[1,0.5,0],"                 \
+    "\"intensity\":4,\"range\":9,\"spot\":{\"innerConeAngle\":0.1,\"outerConeAngle\":0.5}}]}"
+
+/* Returns the only light of the document with an area light of these members at its node. */
+static lmp_light read_area(const char *members, const char *transform) {
+    char lights[256], node[256];
+    snprintf(lights, sizeof lights, "\"EXT_lights_area\":{\"lights\":[{%s}]}", members);
+    snprintf(node, sizeof node, "{%s\"extensions\":{\"EXT_lights_area\":{\"light\":0}}}",
+             transform);
+    char *text = changed(NODE, node), *whole = replaced(text, PUNCTUAL, lights);
+    scene_builder builder;
+    base_error error;
+    if (!reads(whole, &builder, &error))
+        fail_msg("%s: %s", members, error.text);
+    assert_int_equal(builder_count(&builder, BLOB_LIGHTS), 1);
+    const scene_light light = *(const scene_light *)builder_items(&builder, BLOB_LIGHTS);
+    builder_free(&builder);
+    free(whole);
+    free(text);
+    return light.emitter;
+}
+
+static lmp_vec3 cross(lmp_vec3 a, lmp_vec3 b) {
+    return (lmp_vec3) { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+/* EXT_lights_area: the size is along y, the width that times the aspect, both times the node's
+ * largest scale; light leaves along -z, even of a mirrored node. */
+static void area_lights_have_the_size_of_their_node_and_shine_along_minus_z(void **state) {
+    (void)state;
+    lmp_light light = read_area("\"type\":\"rect\",\"intensity\":500,\"color\":[1,0.5,0],"
+                                "\"size\":2,\"rect\":{\"aspect\":3}",
+                                "\"translation\":[1,2,3],\"scale\":[1,-4,1],");
+    assert_int_equal(light.kind, LMP_LIGHT_RECTANGLE);
+    assert_int_equal(light.two_sided, 0);
+    assert_vector(light.position, 1, 2, 3);
+    assert_vector(light.half[0], 12, 0, 0);
+    assert_vector(cross(light.half[0], light.half[1]), 0, 0, -48);
+    assert_vector((lmp_vec3) { light.radiance.r, light.radiance.g, light.radiance.b }, 500, 250, 0);
+    light = read_area("\"type\":\"disk\"", "\"rotation\":[0,0.70710678,0,0.70710678],");
+    assert_int_equal(light.kind, LMP_LIGHT_DISK);
+    assert_vector(light.direction, -1, 0, 0);
+    assert_true(light.radius == 0.5f && light.radiance.b == 1000);
+}
+
 /* The position of an animated node moves the light, and its rotation is named. */
-static void a_direction_that_is_animated_is_left_out(void **state) {
+static void a_direction_that_is_animated_is_unsupported(void **state) {
     (void)state;
     char *values = changed("\"count\":4,\"type\":\"VEC4\"}]",
                            "\"count\":4,\"type\":\"VEC4\"},{\"bufferView\":8,"
@@ -85,12 +131,12 @@ static void a_direction_that_is_animated_is_left_out(void **state) {
     const char *const texts[] = { document, rotated };
     for (size_t turns = 0; turns < 2; turns++) {
         scene_builder builder;
-        cli_error error;
+        base_error error;
         bool named = false;
         if (!reads(texts[turns], &builder, &error))
             fail_msg("%s", error.text);
-        const scene_left_out *items = builder_items(&builder, BLOB_LEFT_OUT);
-        for (size_t i = 0; i < builder_count(&builder, BLOB_LEFT_OUT); i++)
+        const scene_unsupported *items = builder_items(&builder, BLOB_UNSUPPORTED);
+        for (size_t i = 0; i < builder_count(&builder, BLOB_UNSUPPORTED); i++)
             named = named || strcmp(items[i].what, "animated direction") == 0;
         assert_int_equal(named, turns);
         assert_int_equal(builder_count(&builder, BLOB_MOTIONS), 1);
@@ -112,13 +158,13 @@ static void a_scene_goes_without_lights_that_cannot_be(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char *text = changed(SPOT, cases[i][0]), said[256];
         scene_builder builder;
-        cli_error error;
+        base_error error;
         bool found = false;
         if (!reads(text, &builder, &error))
             fail_msg("%s: %s", cases[i][0], error.text);
-        const scene_left_out *items = builder_items(&builder, BLOB_LEFT_OUT);
-        for (size_t k = 0; k < builder_count(&builder, BLOB_LEFT_OUT); k++) {
-            scene_left_out_text(&items[k], said, sizeof said);
+        const scene_unsupported *items = builder_items(&builder, BLOB_UNSUPPORTED);
+        for (size_t k = 0; k < builder_count(&builder, BLOB_UNSUPPORTED); k++) {
+            scene_unsupported_text(&items[k], said, sizeof said);
             found = found || strcmp(said, cases[i][1]) == 0;
         }
         if (!found)
@@ -130,8 +176,8 @@ static void a_scene_goes_without_lights_that_cannot_be(void **state) {
     }
 }
 
-/* The right angle as a float32 is a little more than one. An inner cone as wide as the outer has a
- * sharp edge. */
+/* The right angle as a float32 is a little more than a right angle. An inner cone as wide as the
+ * outer one has a sharp edge. */
 static void cones_up_to_a_right_angle_are_taken(void **state) {
     (void)state;
     static const struct {
@@ -164,12 +210,12 @@ static void the_command_line_gives_points_and_parallel_light_a_size(void **state
     };
     const scene_light before = lights[2];
     scene s = { .lights = lights, .light_count = 3 };
-    cli_error error;
+    base_error error;
     assert_true(scene_apply_lights(
         &s, &(scene_lights_options) { .point_radius = 2, .sun_angle = 30 }, &error));
     assert_int_equal(lights[0].emitter.kind, LMP_LIGHT_SPHERE);
     CHECK_WITHIN(fabs(4 * M_PI * (double)lights[0].emitter.radiance.g - 2), 1e-6);
-    /* Irradiance of a cap that one faces: pi sin²a L. */
+    /* The irradiance of a cap that one faces is pi sin²a L. */
     assert_int_equal(lights[1].emitter.kind, LMP_LIGHT_CAP);
     CHECK_WITHIN(fabs((double)lights[1].emitter.angle - M_PI / 6), 1e-6);
     CHECK_WITHIN(fabs(M_PI * 0.25 * (double)lights[1].emitter.radiance.b - 3), 1e-6);
@@ -189,7 +235,7 @@ static void a_size_that_no_light_can_have_is_refused(void **state) {
     for (size_t i = 0; i < 2; i++) {
         scene_light light = given[i];
         scene s = { .lights = &light, .light_count = 1, .name = "file.gltf" };
-        cli_error error;
+        base_error error;
         assert_false(scene_apply_lights(
             &s, &(scene_lights_options) { .point_radius = 1e-20f, .sun_angle = 1e-20f }, &error));
         assert_non_null(strstr(error.text, "file.gltf: lights[0].radiance"));
@@ -203,7 +249,8 @@ int main(void) {
         cmocka_unit_test(a_cone_that_is_not_given_is_an_eighth_of_a_circle),
         cmocka_unit_test(parallel_light_is_directional),
         cmocka_unit_test(a_point_is_a_point_and_with_a_radius_a_sphere),
-        cmocka_unit_test(a_direction_that_is_animated_is_left_out),
+        cmocka_unit_test(area_lights_have_the_size_of_their_node_and_shine_along_minus_z),
+        cmocka_unit_test(a_direction_that_is_animated_is_unsupported),
         cmocka_unit_test(a_scene_goes_without_lights_that_cannot_be),
         cmocka_unit_test(cones_up_to_a_right_angle_are_taken),
         cmocka_unit_test(the_command_line_gives_points_and_parallel_light_a_size),

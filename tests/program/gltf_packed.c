@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* glTF files whose buffer views are compressed: what meshoptimizer's encoders packed is what is
- * drawn, and what cannot be unpacked is named. */
+/* glTF files with compressed buffer views: what meshoptimizer's encoders packed is drawn, and what
+ * cannot be unpacked is named. */
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
 
@@ -11,7 +11,7 @@ enum { SIDE = 9, VERTICES = SIDE * SIDE, CORNERS = 6 * (SIDE - 1) * (SIDE - 1) }
 /* A curved sheet. */
 static float positions[VERTICES][3];
 static float normals[VERTICES][4];
-static signed char stored_normals[VERTICES][4]; /* as the filter has them */
+static signed char stored_normals[VERTICES][4]; /* normals as the filter stores them */
 static unsigned corners[CORNERS];
 
 static void make_sheet(void) {
@@ -36,7 +36,7 @@ static void make_sheet(void) {
 
 /* --- the files -------------------------------------------------------------------------------- */
 
-/* Three views, in a buffer one after the other: positions, normals, indices. */
+/* Three views of one buffer, one after the other: positions, normals, indices. */
 typedef struct packed {
     unsigned char bytes[16384];
     size_t sizes[3];
@@ -100,8 +100,8 @@ static void write_file(const variant *v, const packed *p) {
 
 /* --- what is read of them --------------------------------------------------------------------- */
 
-/* Indices may come as another rotation of the same triangles: each has its three positions, in
- * their order. */
+/* Finds a triangle of the sheet. Indices may come as another rotation of it: its three positions
+ * keep their order. */
 static void check_triangle(const scene *s, size_t triangle) {
     const float *wanted[3], *found[3];
     for (size_t k = 0; k < 3; k++) {
@@ -141,14 +141,14 @@ static void compressed_views_are_what_they_were(void **state) {
             &(variant) { extensions[i % 2], "OCTAHEDRAL", i / 2 ? "TRIANGLES" : "INDICES", "" },
             &p);
         scene s = load(in_folder("packed.gltf"));
-        check_sheet(&s, 0.012); /* 8 bits of each */
+        check_sheet(&s, 0.012); /* with 8 bits each */
         scene_free(&s);
     }
 }
 
 static void refuse(const variant *v, const packed *p, const char *reason) {
     scene s;
-    cli_error error = { "" };
+    base_error error = { "" };
     write_file(v, p);
     if (scene_load(in_folder("packed.gltf"), &(scene_options) { .no_cache = true }, &s, &error))
         fail_msg("read, and not refused as \"%s\"", reason);
@@ -176,8 +176,8 @@ static void what_cannot_be_unpacked_is_named(void **state) {
     refuse(&plain, &p, "bufferView 0 has damaged compressed data");
 }
 
-/* Bytes for readers without the extension serve where a stream is too new; they need not be there
- * otherwise. */
+/* Plain bytes for readers without the extension are taken where a stream is too new; otherwise they
+ * need not be there. */
 static void a_newer_stream_falls_back_to_plain_bytes(void **state) {
     (void)state;
     variant v = { "KHR_meshopt_compression", "COLOR", "TRIANGLES", "\"uri\":\"plain.bin\"," };

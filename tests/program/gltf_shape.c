@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What a glTF document looks like: skins, morph targets, instances, colors and coordinates of
- * vertices, against what the specification says of them. */
+/* The shape of a glTF document: skins, morph targets, instances, colors and coordinates of
+ * vertices, against the specification. */
 #include "app/scene/instance.h"
 #include "tests/program/gltf_document.h"
 
 #include <math.h>
 
-/* A vertex of the first mesh where an instance of it takes it. */
+/* Asserts the position of a vertex of the first mesh as an instance of it places it. */
 static void assert_instance_position(const scene_builder *builder, size_t instance, size_t vertex,
                                      double x, double y, double z) {
     const double wanted[3] = { x, y, z };
@@ -20,15 +20,15 @@ static void assert_instance_position(const scene_builder *builder, size_t instan
         CHECK_WITHIN(fabs((double)found[k] - wanted[k]), 1e-6);
 }
 
-/* The document's first vertex lies in the origin of its mesh, the second at x = 1. Its skin hangs
- * on node 0, at (1, 2, 3). */
+/* Asserts the position of a vertex. The document's first vertex lies in the origin of its mesh, the
+ * second at x = 1; its skin hangs on node 0, at (1, 2, 3). */
 static void assert_position(const scene_builder *builder, size_t vertex, double x, double y,
                             double z) {
     assert_instance_position(builder, 0, vertex, x, y, z);
 }
 
 static void read_changed(const char *from, const char *to, scene_builder *builder) {
-    cli_error error;
+    base_error error;
     char *text = changed(from, to);
     if (!reads(text, builder, &error))
         fail_msg("%s: %s", to, error.text);
@@ -38,17 +38,17 @@ static void read_changed(const char *from, const char *to, scene_builder *builde
 static void a_skin_follows_its_joints_alone(void **state) {
     (void)state;
     scene_builder builder;
-    /* The node's own transform is of no account. */
+    /* With a skin the node's own transform does not count. */
     read_changed("{\"mesh\":0,\"skin\":0}", "{\"mesh\":0,\"skin\":0,\"translation\":[9,9,9]}",
                  &builder);
     assert_position(&builder, 0, 1, 2, 3);
     assert_position(&builder, 1, 2, 2, 3);
     builder_free(&builder);
-    /* Without one it is. */
+    /* Without a skin it counts. */
     read_changed("{\"mesh\":0,\"skin\":0}", "{\"mesh\":0,\"translation\":[9,9,9]}", &builder);
     assert_position(&builder, 0, 10, 11, 12);
     builder_free(&builder);
-    /* A quarter turn of the joint about z, and an inverse bind matrix that moves by y. */
+    /* The joint makes a quarter turn about z, and an inverse bind matrix moves by y. */
     const float along = 1.0f;
     memcpy(bytes + MATRIX + 13 * sizeof along, &along, sizeof along);
     read_changed("\"rotation\":[0,0,0,1]", "\"rotation\":[0,0,0.70710678,0.70710678]", &builder);
@@ -61,7 +61,7 @@ static void a_skin_follows_its_joints_alone(void **state) {
 static void joints_share_a_vertex_by_their_weights(void **state) {
     (void)state;
     scene_builder builder;
-    /* Half of the second vertex hangs on a second joint, node 3, in the world's origin. */
+    /* Half of the second vertex follows a second joint, node 3, in the world's origin. */
     const float half = 0.5f;
     memcpy(bytes + JOINTS + 4, "\0\1", 2);
     memcpy(bytes + WEIGHTS + 16, &half, sizeof half);
@@ -79,7 +79,7 @@ static void joints_share_a_vertex_by_their_weights(void **state) {
 static void morph_targets_are_added_by_their_weights(void **state) {
     (void)state;
     scene_builder builder;
-    cli_error error;
+    base_error error;
     char *text = changed("\"mode\":4", "\"targets\":[{\"POSITION\":0}]");
     assert_true(reads(text, &builder, &error));
     assert_position(&builder, 1, 2, 2, 3);
@@ -103,7 +103,7 @@ static void instances_are_meshes_each_by_its_transform(void **state) {
                  "{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":"
                  "{\"attributes\":{\"TRANSLATION\":6}}}}",
                  &builder);
-    /* The mesh is there once. */
+    /* The mesh exists once. */
     assert_int_equal(builder_count(&builder, BLOB_MESHES), 1);
     assert_int_equal(builder_count(&builder, BLOB_INSTANCES), 2);
     assert_instance_position(&builder, 0, 0, 1, 2, 3);
@@ -114,7 +114,7 @@ static void instances_are_meshes_each_by_its_transform(void **state) {
 static void colors_of_vertices_are_read(void **state) {
     (void)state;
     scene_builder builder;
-    /* The weights, four floats of which the first is 1. */
+    /* The weights serve as colors, four floats of which the first is 1. */
     read_changed("\"POSITION\":0", "\"POSITION\":0,\"COLOR_0\":8", &builder);
     const scene_vertex *vertex = builder_items(&builder, BLOB_VERTICES);
     const scene_material *material = builder_items(&builder, BLOB_MATERIALS);
@@ -134,14 +134,14 @@ static void colors_of_vertices_are_read(void **state) {
 static void two_sets_of_coordinates_are_kept(void **state) {
     (void)state;
     scene_builder builder;
-    /* The base color by set 1, the normal map by set 0. */
+    /* The base color takes set 1, the normal map set 0. */
     read_changed("\"texCoord\":0", "\"texCoord\":1", &builder);
     const scene_material *material = builder_items(&builder, BLOB_MATERIALS);
     assert_int_equal(material->normal_map.set, 0);
     assert_int_equal(material->base_color_map.set, 1);
     assert_int_equal(material->metallic_roughness_map.set, 0);
     builder_free(&builder);
-    /* Unless the transform says otherwise. */
+    /* Both hold unless the transform says otherwise. */
     read_changed("\"offset\":[0,0]", "\"offset\":[0,0],\"texCoord\":4", &builder);
     material = builder_items(&builder, BLOB_MATERIALS);
     assert_int_equal(material->base_color_map.set, 1);

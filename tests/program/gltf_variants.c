@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* KHR_materials_variants: the materials that a primitive has in the variant that is wanted, by the
- * specification's rule: the mapping whose list of variants has it, or else its own. */
-#include "app/file/file.h"
+/* KHR_materials_variants: a primitive takes its material in the chosen variant by the
+ * specification's rule, from the mapping whose list of variants has it, or else its own. */
+#include "app/base/error.h"
+#include "app/base/file_json.h"
 #include "app/view/settings.h"
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
 
-#include <cjson/cJSON.h>
+#include <jansson.h>
 
 #define MATERIAL(name, color, more)                                                                \
     "{\"name\":\"" name "\",\"pbrMetallicRoughness\":{\"baseColorFactor\":" color "}" more "}"
 
-/* Two triangles: one is green by day and glows at night, its normal map by the second set of
- * coordinates; the other is red whatever is chosen. Nothing is mapped at dusk. */
+/* Two triangles: one is green by day and glows at night, with a normal map by the second set of
+ * coordinates; the other is always red. Nothing is mapped at dusk. */
 static const char two_triangles[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
     "\"extensionsUsed\":[\"KHR_materials_variants\"],"
@@ -43,7 +44,7 @@ static const char two_triangles[] =
 
 static scene load_variant(const char *name, const char *variant) {
     scene loaded;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     if (!scene_load(in_folder(name), &(scene_options) { .variant = variant }, &loaded, &error))
         fail_msg("%s", error.text);
     return loaded;
@@ -53,13 +54,14 @@ static const char *material_of(const scene *s, size_t mesh) {
     return s->materials[s->meshes[mesh].material].name;
 }
 
-/* Twice: read anew, and from the cache, where each variant has an entry of its own. */
+/* The file is read twice: parsed, and from the cache, where each variant has an entry of its own.
+ */
 static void a_primitive_has_its_variants_material(void **state) {
     (void)state;
     static const struct {
         const char *variant, *first;
         size_t lights;
-        float v; /* of the second vertex in the first set that is kept */
+        float v; /* the second vertex's, in the first set that is kept */
     } cases[] = { { NULL, "red", 0, 0 },          { "day", "green", 0, 0 },
                   { "late?night", "glow", 1, 0 }, { "dusk", "red", 0, 0 },
                   { "0", "green", 0, 0 },         { "1", "glow", 1, 0 },
@@ -76,8 +78,7 @@ static void a_primitive_has_its_variants_material(void **state) {
         }
 }
 
-/* The glowing material's normal map goes by TEXCOORD_1, whose first u is 1; the others show none.
- */
+/* The glowing material's normal map takes TEXCOORD_1, whose first u is 1; the others have none. */
 static void coordinates_are_those_of_the_variants_material(void **state) {
     (void)state;
     folder_write_text("two.gltf", two_triangles);
@@ -88,7 +89,7 @@ static void coordinates_are_those_of_the_variants_material(void **state) {
     }
 }
 
-static void variants_are_listed_and_none_is_left_out(void **state) {
+static void variants_are_listed_and_none_is_unsupported(void **state) {
     (void)state;
     folder_write_text("two.gltf", two_triangles);
     scene s = load_variant("two.gltf", NULL);
@@ -96,8 +97,8 @@ static void variants_are_listed_and_none_is_left_out(void **state) {
     assert_string_equal(s.variants[0].name, "day");
     assert_string_equal(s.variants[1].name, "late?night");
     assert_string_equal(s.variants[2].name, "dusk");
-    for (size_t i = 0; i < s.left_out_count; i++)
-        assert_null(strstr(s.left_out[i].what, "variants"));
+    for (size_t i = 0; i < s.unsupported_count; i++)
+        assert_null(strstr(s.unsupported[i].what, "variants"));
     scene_free(&s);
 }
 
@@ -116,18 +117,18 @@ static void an_unknown_variant_is_refused_by_those_there_are(void **state) {
     folder_write_text("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         scene s;
-        cli_error error = { 0 };
+        base_error error = { 0 };
         assert_false(scene_load(in_folder(cases[i].name),
                                 &(scene_options) { .variant = cases[i].variant }, &s, &error));
         assert_non_null(strstr(error.text, cases[i].wrong));
     }
     scene s;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     assert_false(scene_load("builtin:ball", &(scene_options) { .variant = "day" }, &s, &error));
     assert_string_equal(error.text, "builtin:ball: no such variant: \"day\", for there is none");
 }
 
-/* What a screenshot of a variant says brings the variant back. */
+/* The screenshot of a variant restores that variant. */
 static void a_screenshot_keeps_the_variant(void **state) {
     (void)state;
     view_settings *before = calloc(1, sizeof *before), *after = calloc(1, sizeof *after);
@@ -140,18 +141,18 @@ static void a_screenshot_keeps_the_variant(void **state) {
     before->exposure = 1;
     before->camera.fov = 1;
     before->shading[0].bands = before->shading[1].bands = 5;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     char *text = file_json_text(view_settings_to_json(before), false, "shot", &error);
     assert_non_null(text);
-    cJSON *root = file_parse_json("shot", text, strlen(text), &error);
+    json_t *root = file_parse_json("shot", text, strlen(text), &error);
     if (!view_settings_from_json(root, "shot", after, &error))
         fail_msg("%s", error.text);
     assert_string_equal(after->variant, "late?night");
-    cJSON_ReplaceItemInObjectCaseSensitive(root, "variant", cJSON_CreateNumber(1));
+    json_object_set_new(root, "variant", json_integer(1));
     assert_false(view_settings_from_json(root, "shot", after, &error));
-    assert_string_equal(error.text, "shot: has settings whose variant make no sense");
+    assert_string_equal(error.text, "shot: has settings with invalid \"variant\"");
     free(text);
-    cJSON_Delete(root);
+    json_decref(root);
     free(before);
     free(after);
 }
@@ -164,7 +165,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_primitive_has_its_variants_material),
         cmocka_unit_test(coordinates_are_those_of_the_variants_material),
-        cmocka_unit_test(variants_are_listed_and_none_is_left_out),
+        cmocka_unit_test(variants_are_listed_and_none_is_unsupported),
         cmocka_unit_test(an_unknown_variant_is_refused_by_those_there_are),
         cmocka_unit_test(a_screenshot_keeps_the_variant),
     };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Radiance images: both packings give what the format says, whatever is cut or changed is refused
- * or read, and no more. */
+/* Radiance images: both packings give what the format says, and files that are truncated or changed
+ * are refused or read, without a crash. */
 #include "app/image/image.h"
 #include "tests/oracle/check.h"
 
@@ -24,11 +24,11 @@ static void put_text(file *f, const char *text) {
     put(f, text, strlen(text));
 }
 
-static bool decodes(const file *f, image *pixels, cli_error *error) {
+static bool decodes(const file *f, image *pixels, base_error *error) {
     const image_source source = {
         .path = "input.hdr", .data = f->bytes, .size = f->size, .pixels_max = 1 << 20
     };
-    *error = (cli_error) { .text = "" };
+    *error = (base_error) { .text = "" };
     return image_decode_hdr(&source, pixels, error);
 }
 
@@ -39,12 +39,12 @@ static void pixels_are_mantissas_and_an_exponent(void **state) {
     (void)state;
     file f = { .size = 0 };
     image pixels;
-    cli_error error;
+    base_error error;
     put_text(&f, HEAD "EXPOSURE=2\nEXPOSURE=4\n\n-Y 2 +X 2\n");
     put(&f, (unsigned char[]) { 128, 64, 255, 129, 9, 9, 9, 0, 1, 2, 3, 136, 1, 1, 1, 1 }, 16);
     if (!decodes(&f, &pixels, &error))
         fail_msg("%s", error.text);
-    /* Exposures were multiplied in: 1/8 of what is stored. */
+    /* Exposures were multiplied in, so the values are 1/8 of those stored. */
     const double expected[12] = { 1 / 8.0, 0.5 / 8, 255 / 128.0 / 8, 0,       0,       0,
                                   1 / 8.0, 2 / 8.0, 3 / 8.0,         1 / 8.0, 2 / 8.0, 3 / 8.0 };
     for (int i = 0; i < 12; i++)
@@ -52,12 +52,13 @@ static void pixels_are_mantissas_and_an_exponent(void **state) {
     image_free(&pixels);
 }
 
-/* Rows of 8 to 32767 pixels: each channel for itself, in runs of one byte and of others. */
+/* Rows of 8 to 32767 pixels store each channel by itself, in runs of one byte and of different
+ * bytes. */
 static void packed_rows_are_unpacked(void **state) {
     (void)state;
     file f = { .size = 0 };
     image pixels;
-    cli_error error;
+    base_error error;
     put_text(&f, HEAD "\n-Y 1 +X 260\n");
     put(&f, (unsigned char[]) { 2, 2, 1, 4 }, 4);
     for (int channel = 0; channel < 3; channel++) {
@@ -77,7 +78,7 @@ static void packed_rows_are_unpacked(void **state) {
 
 static void expect(const file *f, int width, int height, const double *rgb, double bound) {
     image pixels;
-    cli_error error;
+    base_error error;
     if (!decodes(f, &pixels, &error))
         fail_msg("%s", error.text);
     assert_int_equal(pixels.width, width);
@@ -116,7 +117,7 @@ static void scanlines_run_in_eight_directions(void **state) {
     }
 }
 
-/* Exposures and color corrections were multiplied in, each after the other. */
+/* Exposures and color corrections were multiplied in one after the other. */
 static void color_corrections_are_undone(void **state) {
     (void)state;
     file f = { .size = 0 };
@@ -125,7 +126,7 @@ static void color_corrections_are_undone(void **state) {
     expect(&f, 1, 1, (const double[]) { 2, 2, 16 }, 1e-9);
 }
 
-/* The white, the red, the green and the blue of Rec. 709, as their XYZ. */
+/* The image holds the white, the red, the green and the blue of Rec. 709 as XYZ. */
 static void xyz_becomes_rec_709(void **state) {
     (void)state;
     static const double xyz[4][3] = { { 95.0456, 100, 108.9058 },
@@ -141,7 +142,7 @@ static void xyz_becomes_rec_709(void **state) {
             pixel[c] = (unsigned char)(xyz[i][c] + 0.5);
         put(&f, pixel, 4);
     }
-    expect(&f, 4, 1, rgb, 2.7); /* half a step of each, by the matrix */
+    expect(&f, 4, 1, rgb, 2.7); /* half a step of each, through the matrix */
 }
 
 static void headers_have_lines_of_any_length_and_either_end(void **state) {
@@ -165,9 +166,9 @@ static void what_is_no_radiance_image_is_refused_by_its_reason(void **state) {
         { "", "does not begin with #?" },
         { "P6\n", "does not begin with #?" },
         { "#?RADIANCE\nFORMAT=32-bit_rle_luv\n\n-Y 1 +X 1\nabcd", "of format \"32-bit_rle_luv\"" },
-        { HEAD "COLORCORR=1 0 1\n\n-Y 1 +X 1\nabcd", "a color correction that makes no sense" },
-        { HEAD "COLORCORR=1 1\n\n-Y 1 +X 1\nabcd", "a color correction that makes no sense" },
-        { HEAD "EXPOSURE=0\n\n-Y 1 +X 1\nabcd", "an exposure that makes no sense" },
+        { HEAD "COLORCORR=1 0 1\n\n-Y 1 +X 1\nabcd", "an invalid color correction" },
+        { HEAD "COLORCORR=1 1\n\n-Y 1 +X 1\nabcd", "an invalid color correction" },
+        { HEAD "EXPOSURE=0\n\n-Y 1 +X 1\nabcd", "an invalid exposure" },
         { HEAD "\n+Y 1 +Y 1\nabcd", "has no size" },
         { HEAD "\n-Y 1 +X\nabcd", "has no size" },
         { HEAD "\n-Y 1 +X 1 1\nabcd", "has no size" },
@@ -180,7 +181,7 @@ static void what_is_no_radiance_image_is_refused_by_its_reason(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         file f = { .size = 0 };
         image pixels;
-        cli_error error;
+        base_error error;
         put_text(&f, cases[i].text);
         if (decodes(&f, &pixels, &error) || !strstr(error.text, cases[i].refusal))
             fail_msg("case %zu: \"%s\"", i, error.text);
@@ -192,7 +193,7 @@ static void damage_does_no_harm(void **state) {
     for (int i = 0; i < check_count(2000, 200000); i++) {
         file f = { .size = 0 };
         image pixels;
-        cli_error error;
+        base_error error;
         put_text(&f, HEAD "\n-Y 3 +X 9\n");
         for (int row = 0; row < 3; row++) {
             put(&f, (unsigned char[]) { 2, 2, 0, 9 }, 4);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Images: what is written comes back, damaged files are refused, exposure and tone. */
 #include "app/image/image.h"
-#include "app/file/file.h"
+#include "app/base/error.h"
+#include "app/base/file.h"
 #include "tests/program/folder.h"
 
 #include <float.h>
@@ -22,7 +23,7 @@ static int remove_folder(void **state) {
 
 static image noise(void) {
     image pixels;
-    cli_error error;
+    base_error error;
     assert_true(image_create(&pixels, WIDTH, HEIGHT, &error));
     for (size_t i = 0; i < VALUES; i++)
         pixels.rgb[i] = (float)exp(check_random_between(-30, 30));
@@ -31,7 +32,7 @@ static image noise(void) {
 
 static void openexr_keeps_every_bit(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     image main_layer = noise(), other = noise(), back;
     const image_layer layers[] = { { "", &main_layer }, { "error", &other } };
     assert_true(image_write_exr_layers(in_folder("a.exr"), layers, 2, &error));
@@ -46,7 +47,7 @@ static void openexr_keeps_every_bit(void **state) {
 
 static void png_keeps_every_byte(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     static unsigned char bytes[VALUES];
     image back;
     for (size_t i = 0; i < VALUES; i++)
@@ -62,9 +63,9 @@ static void png_keeps_every_byte(void **state) {
     image_free(&back);
 }
 
-/* Cuts a good file everywhere and damages it at random: it reads or is refused, and no more. */
+/* Truncates a good file everywhere and damages it at random: it must be read or refused. */
 static void survive_damage(const char *good, const char *bad) {
-    cli_error error = { "" };
+    base_error error = { "" };
     void *data;
     size_t size;
     char name[64];
@@ -110,13 +111,13 @@ static void damaged_images_are_refused_in_one_line(void **state) {
 
 static void a_png_that_claims_to_be_huge_is_refused(void **state) {
     (void)state;
-    /* the header of 65535 x 65535 pixels, with its checksum, and an empty IDAT */
+    /* A header of 65535 x 65535 pixels, with its checksum, and an empty IDAT. */
     static const unsigned char bytes[] = { 0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00,
                                            0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
                                            0xff, 0xff, 0x00, 0x00, 0xff, 0xff, 0x08, 0x02, 0x00,
                                            0x00, 0x00, 0x39, 0x67, 0x4e, 0x07, 0x00, 0x00, 0x00,
                                            0x00, 0x49, 0x44, 0x41, 0x54, 0x35, 0xaf, 0x06, 0x1e };
-    cli_error error = { "" };
+    base_error error = { "" };
     image pixels;
     FILE *stream = fopen(in_folder("bad.png"), "wb");
     assert_non_null(stream);
@@ -129,7 +130,7 @@ static void a_png_that_claims_to_be_huge_is_refused(void **state) {
 static void more_pixels_than_wanted_are_refused(void **state) {
     (void)state;
     static const char *const names[] = { "a.png", "a.exr" };
-    cli_error error = { "" };
+    base_error error = { "" };
     image pixels;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         assert_false(image_read(in_folder(names[i]), WIDTH * HEIGHT - 1, &pixels, &error));
@@ -141,9 +142,9 @@ static void more_pixels_than_wanted_are_refused(void **state) {
 
 static void paths_that_cannot_be_written_are_refused_at_once(void **state) {
     (void)state;
-    cli_error error = { "" };
+    base_error error = { "" };
     assert_true(image_check_path(in_folder("b.png"), &error));
-    assert_true(access(in_folder("b.png"), F_OK) != 0); /* only asked */
+    assert_true(access(in_folder("b.png"), F_OK) != 0); /* the name was only tested */
     assert_false(image_check_path(in_folder("none/b.png"), &error));
     assert_false(image_check_path(in_folder("b.jpg"), &error));
     assert_non_null(strstr(error.text, ".png or .exr"));
@@ -161,7 +162,7 @@ static void exposure_puts_what_is_lit_at_middle_grey(void **state) {
     image pixels = noise();
     fill(&pixels, 40);
     CHECK_WITHIN(fabs((double)image_auto_exposure(&pixels) * 40 / 0.18 - 1), 0.05);
-    /* background, lamps and numbers that are none do not count */
+    /* Background, lamps and NaN do not count. */
     for (size_t i = 0; i < VALUES / 2; i++)
         pixels.rgb[i] = 0;
     for (size_t i = VALUES / 2; i < VALUES / 2 + 36; i++)
@@ -169,7 +170,7 @@ static void exposure_puts_what_is_lit_at_middle_grey(void **state) {
     pixels.rgb[VALUES - 1] = NAN;
     pixels.rgb[VALUES - 4] = INFINITY;
     CHECK_WITHIN(fabs((double)image_auto_exposure(&pixels) * 40 / 0.18 - 1), 0.05);
-    /* nor does what is black beside the rest */
+    /* Nor does what is black beside the rest. */
     for (size_t i = 0; i < VALUES / 2; i++)
         pixels.rgb[i] = 1e-5f;
     CHECK_WITHIN(fabs((double)image_auto_exposure(&pixels) * 40 / 0.18 - 1), 0.05);
@@ -202,8 +203,8 @@ static void the_curve_keeps_black_and_gray_rises_and_ends_white(void **state) {
     image_free(&pixels);
 }
 
-/* Orange lamps, each four times as bright as the one before: none is nearer to white than a red
- * that has a half of its green in it. */
+/* Orange lamps, each four times as bright as the one before, are no nearer to white than a red with
+ * half of its green in it. */
 static void bright_lamps_keep_their_hue(void **state) {
     (void)state;
     static unsigned char bytes[VALUES];
@@ -221,7 +222,7 @@ static void bright_lamps_keep_their_hue(void **state) {
     image_free(&pixels);
 }
 
-/* Few bright surfaces hold the rest down: the brightest twentieth alone is above 1.5. */
+/* A few bright surfaces limit the exposure: only the brightest twentieth is above 1.5. */
 static void exposure_does_not_clip_what_is_lit(void **state) {
     (void)state;
     image pixels = noise();

@@ -3,8 +3,8 @@
  */
 #include "app/scene/instance.h"
 #include "app/scene/space.h"
+#include "app/scene/trace/trace.h"
 #include "app/scene/vector.h"
-#include "app/trace/trace.h"
 #include "tests/oracle/throng.h"
 
 #include <stdlib.h>
@@ -58,7 +58,8 @@ static void triangles_have_the_bits_of_those_in_the_world(void **state) {
     close_pair(&p);
 }
 
-/* Normals stay across their triangles, on the side of their fronts, and tangents across normals. */
+/* Normals stay perpendicular to their triangles, on the front side, and tangents perpendicular to
+ * normals. */
 static void normals_follow_any_matrix(void **state) {
     (void)state;
     pair p = open_pair();
@@ -125,7 +126,7 @@ static void find(const scene *world, trace_kind kind, trace_hit *hits) {
     assert_non_null(bvh);
     check_seed(3);
     for (int first = 0; first < RAYS; first += TRACE_LANES) {
-        trace_rays rays = { .samples = 1 };
+        trace_rays rays = { .together = false };
         for (int i = 0; i < TRACE_LANES; i++) {
             rays.length[i] = INFINITY;
             for (int k = 0; k < 3; k++) {

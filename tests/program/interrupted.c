@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* A writer of a file, interrupted or killed at each of its system calls in turn: the old file is
  * whole or the new one is, and an interrupt leaves nothing beside it. */
-#include "app/file/file.h"
+#include "app/base/error.h"
+#include "app/base/file_writer.h"
 #include "tests/program/folder.h"
 
 #include <dirent.h>
@@ -15,15 +16,15 @@ static const char old_text[] = "old", new_text[] = "the new one";
 enum { NO_TRACING = 2 };
 
 static _Noreturn void write_traced(void) {
-    cli_error error;
+    base_error error;
     if (ptrace(PTRACE_TRACEME, 0, NULL, NULL) != 0)
         _exit(NO_TRACING);
     raise(SIGSTOP);
     _exit(file_write_whole(in_folder("file"), new_text, sizeof new_text - 1, &error) ? 0 : 1);
 }
 
-/* The status at its end of a writer that gets the signal at its stop of this index (two stops a
- * system call: before and after); *reached is false if it had fewer. */
+/* Returns the status of a writer that gets the signal at the stop of this index (two stops per
+ * system call: before and after); *reached is false if it had fewer stops. */
 static int interrupt_at(int index, int number, bool *reached) {
     int status;
     const pid_t writer = fork();

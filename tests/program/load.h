@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* load.h - a scene that a test needs, read anew. */
+/* load.h - loads a scene that a test needs, past the cache. */
 #ifndef LAMPION_PROGRAM_LOAD_H
 #define LAMPION_PROGRAM_LOAD_H
 
@@ -10,13 +10,13 @@
 
 static inline scene load(const char *name) {
     scene loaded;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     if (!scene_load(name, &(scene_options) { .no_cache = true }, &loaded, &error))
         fail_msg("%s", error.text);
     return loaded;
 }
 
-/* Unit normals, tangents across them, and indices of vertices that are there. */
+/* Asserts unit normals, tangents perpendicular to them, and indices of vertices that exist. */
 static inline void assert_unit_and_inside(const scene *s) {
     for (size_t i = 0; i < s->index_count; i++)
         assert_true(s->indices[i] < s->vertex_count);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Materials from files: a reader that a file makes crash, or never end, does so in a child, and the
- * program says so in a line. */
-#include "app/material/material.h"
+ * program reports it in one line. */
+#include "app/scene/material.h"
 #include "tests/program/folder.h"
 
 #include <signal.h>
 #include <unistd.h>
 
-/* The linker puts these in place of the library's readers. */
+/* The linker replaces the library's readers by these. */
 lmp_result __wrap_lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t size,
                                      lmp_parse_error *error, lmp_brdf **brdf);
 lmp_result __real_lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t size,
@@ -26,7 +26,7 @@ lmp_result __wrap_lmp_brdf_read_merl(const lmp_host *host, const void *data, siz
     return __real_lmp_brdf_read_merl(host, data, size, error, brdf);
 }
 
-/* As a hole in the reader would have it, for whoever made the file. */
+/* Acts as a hole in the reader would for whoever made the file. */
 lmp_result __wrap_lmp_brdf_table_read(const lmp_host *host, const void *data, size_t size,
                                       lmp_parse_error *error, lmp_brdf_table **table) {
     (void)host;
@@ -41,7 +41,7 @@ lmp_result __wrap_lmp_brdf_table_read(const lmp_host *host, const void *data, si
     return LMP_OK;
 }
 
-/* It reads the first time, in the child. */
+/* The first reading, in the child, succeeds. */
 lmp_result __wrap_lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size,
                                     lmp_parse_error *error, lmp_brdf **brdf) {
     (void)data;
@@ -53,7 +53,7 @@ lmp_result __wrap_lmp_brdf_read_rgl(const lmp_host *host, const void *data, size
 static void expect_error(const char *name, const char *expected) {
     char path[64];
     material m;
-    cli_error error = { "" };
+    base_error error = { "" };
     snprintf(path, sizeof path, "%s/%s", folder, name);
     assert_false(material_open(path, &m, &error));
     if (!strstr(error.text, expected))
@@ -82,7 +82,7 @@ static void what_a_child_could_read_is_read(void **state) {
     (void)state;
     char path[64];
     material m;
-    cli_error error;
+    base_error error;
     folder_write_text("white.bsdf", "tensor_file");
     snprintf(path, sizeof path, "%s/white.bsdf", folder);
     assert_true(material_open(path, &m, &error));
@@ -95,7 +95,7 @@ static void numbers_are_all_that_comes_of_a_table_of_fits(void **state) {
     (void)state;
     char row[1024] = "x,cloth", name[128];
     material m;
-    cli_error error;
+    base_error error;
     for (int i = 0; i < 33; i++)
         snprintf(row + strlen(row), sizeof row - strlen(row), ",%g", 0.1 + 0.01 * i);
     folder_write_text("fits.csv", row);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* What a file means is what is drawn: sides, opacity and light where formats leave or say little.
- */
+/* A file is drawn as its author meant it: sides, opacity and light where formats leave or say
+ * little. */
 #include "app/scene/scene.h"
-#include "app/trace/trace.h"
+#include "app/scene/trace/trace.h"
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
 
@@ -10,7 +10,7 @@
 
 #define CORNERS "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
-/* Whether a ray along z, from this side, sees the triangle. */
+/* Whether a ray along z, from this side, hits the triangle. */
 static bool is_seen(const scene *world, float from) {
     trace_bvh *bvh = trace_create(world);
     assert_non_null(bvh);
@@ -20,7 +20,7 @@ static bool is_seen(const scene *world, float from) {
     return hit.instance != TRACE_NOTHING;
 }
 
-/* The z of a triangle's normal by the order of its corners. */
+/* Returns the z of a triangle's normal by the order of its corners. */
 static double facing(const scene *world) {
     const float *a = world->vertices[world->indices[0]].position;
     const float *b = world->vertices[world->indices[1]].position;
@@ -46,7 +46,7 @@ static void a_format_without_sides_culls_none(void **state) {
     scene_free(&world);
 }
 
-/* Both sides are lit by their own normals, so that the front must be where the given ones are. */
+/* Both sides are lit by their own normals, so the front must be where the given normals point. */
 static void clockwise_triangles_follow_their_normals(void **state) {
     (void)state;
     for (int clockwise = 0; clockwise < 2; clockwise++)
@@ -62,7 +62,7 @@ static void clockwise_triangles_follow_their_normals(void **state) {
         }
 }
 
-/* Its power is area · pi · radiance, as before, though both sides are seen. */
+/* The lamp's power is area · pi · radiance, as before, although both sides are seen. */
 static void a_lamp_of_an_obj_shines_by_one_side(void **state) {
     (void)state;
     folder_write_text("m.mtl", "newmtl m\nKe 3 3 3\n");
@@ -70,8 +70,8 @@ static void a_lamp_of_an_obj_shines_by_one_side(void **state) {
     scene world = load(in_folder("l.obj"));
     assert_int_equal(world.light_count, 1);
     const lmp_light *light = &world.lights[0].emitter;
-    const double power =
-        4 * M_PI * M_PI * (double)(light->radius * light->radius) * (double)light->radiance.g;
+    const double power = (double)lmp_light_power_from_radiance(light, light->radiance.g);
+    assert_false(light->two_sided);
     CHECK_WITHIN(fabs(power / (0.5 * M_PI * 3) - 1), 1e-5);
     scene_free(&world);
 }
@@ -95,7 +95,7 @@ static void a_model_of_any_size_has_its_normals_and_is_framed(void **state) {
         assert_true(square > 1 && square < 16);
         scene_free(&world);
     }
-    /* Upright, where a normal that is made up would point along it. */
+    /* The triangle is upright, where a default normal would point along it. */
     folder_write_text("size.obj", "v 0 0 0\nv 1e12 0 0\nv 0 1e12 0\nf 1 2 3\n");
     scene world = load(in_folder("size.obj"));
     CHECK_WITHIN(fabs((double)world.vertices[0].normal[2] - 1), 1e-6);
@@ -124,13 +124,14 @@ static void a_cutoff_above_1_hides_the_surface(void **state) {
     }
 }
 
-/* What is said of a scene that leaves out one thing; "" of one that leaves out nothing. */
+/* Returns what is reported of a scene in which one thing is unsupported; "" if nothing
+ * is. */
 static const char *told_of(const scene *world) {
     static char said[256];
     said[0] = 0;
-    assert_true(world->left_out_count <= 1);
-    if (world->left_out_count == 1)
-        scene_left_out_text(world->left_out, said, sizeof said);
+    assert_true(world->unsupported_count <= 1);
+    if (world->unsupported_count == 1)
+        scene_unsupported_text(world->unsupported, said, sizeof said);
     return said;
 }
 
@@ -144,7 +145,7 @@ static void an_opacity_of_0_is_told(void **state) {
     scene_free(&world);
 }
 
-/* Nobody means an empty image. */
+/* An empty image is never meant. */
 static void what_would_all_be_invisible_is_opaque(void **state) {
     (void)state;
     folder_write_text("m.mtl", "newmtl m\nKd 1 1 1\nd 0\n");
@@ -155,7 +156,7 @@ static void what_would_all_be_invisible_is_opaque(void **state) {
     scene_free(&world);
 }
 
-/* Tr is 1 - d, but some exporters write 1 for what is opaque; d says it without doubt. */
+/* Tr is 1 - d, but some exporters write 1 for opaque; d is unambiguous. */
 static void a_transparency_of_1_is_none(void **state) {
     (void)state;
     static const struct {
@@ -178,7 +179,7 @@ static void a_transparency_of_1_is_none(void **state) {
     }
 }
 
-/* They are left out in any case. */
+/* Colors of vertices are unsupported in any case. */
 static void a_color_of_a_vertex_need_be_no_number(void **state) {
     (void)state;
     folder_write_text("v.obj", "v 0 0 0 nan nan nan\nv 1 0 0 1 1 1\nv 0 1 0 inf 0 -\nf 1 2 3\n");

@@ -29,7 +29,7 @@ run() {
     LD_PRELOAD=$scarce LAMPION_REFUSE=${refused%%at:*} LAMPION_REFUSE_AT=${refused#*at:} "$PROGRAM" "$@" >out 2>err </dev/null || status=$?
 }
 
-# What a run printed, without the times in it, and the image or table that it wrote, if it did.
+# Prints what a run printed, without times, and the image or table that it wrote, if any.
 printed() {
     sed 's/[0-9.e+-]*[0-9]//g' out | cksum
 }
@@ -38,7 +38,7 @@ written() {
     cat image.* 2>/dev/null | cksum
 }
 
-# sweep COMMAND…: the calls that no sweep before it had refused
+# sweep COMMAND…: refuses the calls that no sweep before has refused.
 : >calls
 sweep() {
     rm -f requests
@@ -67,7 +67,7 @@ sweep() {
     echo "tried: $tried requests for memory that were refused"
 }
 
-# triangles that cannot be sorted for rays: one line, with the way out
+# Triangles that cannot be sorted for rays must be reported in one line, with a way out.
 for k in 1 2 5 20; do
     rm -f image.png
     status=0
@@ -83,11 +83,11 @@ for k in 1 2 5 20; do
     [ ! -e image.png ] || fail "refusal $k to the ray tracer: an image"
 done
 
-# cJSON goes on with holes where it has no memory: all that it asks for passes the program, which knows
+# Without memory jansson would read another text, so all its requests must go through the program, which ends the parse.
 for command in "info --json scene.gltf" "render scene.gltf --size 8x8 --bands 2 --stats --repeat 1 -o image.png"; do
-    LD_PRELOAD=$scarce LAMPION_REFUSE_TO=libcjson LAMPION_REQUESTS=$PWD/requests "$PROGRAM" $command >out 2>err ||
+    LD_PRELOAD=$scarce LAMPION_REFUSE_TO=libjansson LAMPION_REQUESTS=$PWD/requests "$PROGRAM" $command >out 2>err ||
         fail "$command: $(cat err)"
-    [ "$(head -n 1 requests)" = 0 ] || fail "$command: cJSON has memory of its own: $(head -n 1 requests) requests"
+    [ "$(head -n 1 requests)" = 0 ] || fail "$command: jansson has memory of its own: $(head -n 1 requests) requests"
 done
 
 sweep info scene.gltf

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The rule of --method auto: by the bands, then a field where so many lights cost half by it. */
-#include "app/method/method.h"
+/* The rule of --method auto: by the bands, then a field where it halves the cost of that many
+ * lights. */
+#include "app/render/method.h"
 #include "tests/oracle/check.h"
 
 static method_kind chosen(size_t lights, int bands, double pixels) {
@@ -20,7 +21,7 @@ static void few_lights_are_summed_and_thousands_are_a_field(void **state) {
     assert_int_equal(chosen(4000, 11, pixels[0]), METHOD_ZONAL);
     assert_int_equal(chosen(3, 33, pixels[0]), METHOD_PREINTEGRATED);
     assert_int_equal(chosen(4000, 33, pixels[0]), METHOD_PREINTEGRATED);
-    assert_int_equal(chosen(1000, 5, 16), METHOD_ZONAL); /* nodes are more than its pixels */
+    assert_int_equal(chosen(1000, 5, 16), METHOD_ZONAL); /* nodes outnumber pixels */
 }
 
 static void estimates_rise_with_lights_bands_and_pixels(void **state) {

@@ -7,7 +7,8 @@ set -eu
 export XDG_CACHE_HOME="$WORK/cache"
 most=128 part=$1 tried=0
 
-# limit METHOD DEVICE: what the document says ("GPU to 20 bands, CPU to 128", "GPU and CPU to 128 bands"); nothing: 0
+# limit METHOD DEVICE: prints the document's limit ("GPU to 20 bands, CPU to 128", "GPU and CPU to 128 bands"), 0 for
+# none.
 limit() {
     awk -F '|' -v method=" \`$1\` " -v device="$2" '$2 == method {
         for (n = split($4, part, "[,;]"); n; n--)

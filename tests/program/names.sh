@@ -4,17 +4,17 @@ set -eu
 . tests/checks/common.sh
 export XDG_CACHE_HOME="$WORK/cache"
 
-# ESC, BEL, DEL, C1 as UTF-8 and as a byte, a turn of the direction
+# ESC, BEL, DEL, C1 as UTF-8 and as a byte, a change of text direction.
 name=$(printf 'e\033]0;told\a\177\302\233m\233m\342\200\256ü')
 shown='e?]0;told????m?m???ü'
-escaped='e\\u001b]0;told\\u0007\\u007f\\u009bm\\ufffdm\\u202eü'
+escaped='e\\u001B]0;told\\u0007\\u007F\\u009Bm\357\277\275m\\u202Eü'
 mkdir "$WORK/files"
 cd "$WORK/files"
 own_scene "$name.gltf"
 "$PROGRAM" field builtin:ball --grid 2x2x2 --bands 2 -o "$name.lmpf"
 "$PROGRAM" brdf bake lambert:0.5 --bands 2 --views 4 -o "$name.lmpt"
 
-# prints EXPECTED ARGUMENT…: the first line with the name holds what is expected, and no line a control character
+# prints EXPECTED ARGUMENT…: the first line with the name must hold EXPECTED, and no line a control character.
 prints() {
     expected=$1
     shift

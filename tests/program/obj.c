@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* OBJ and MTL: what the format allows is read, what it forbids is refused by its line. */
-#include "app/scene/obj.h"
+/* OBJ and MTL: what the format allows is read, what it forbids is refused with its line. */
+#include "app/scene/load/obj.h"
 #include "app/scene/instance.h"
 #include "app/scene/scene.h"
 
@@ -10,29 +10,29 @@
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
-typedef struct verdict {
+typedef struct expectation {
     const char *text;
     size_t triangles;
-    const char *said; /* the refusal, or with triangles what is left out; NULL: nothing */
-} verdict;
+    const char *said; /* the refusal, or with triangles what is unsupported; NULL for nothing */
+} expectation;
 
 /* Reads a text in this process. */
-static bool reads(const char *text, scene_builder *builder, cli_error *error) {
+static bool reads(const char *text, scene_builder *builder, base_error *error) {
     source_set sources = { .subject = "input", .folder = folder };
     *builder = (scene_builder) { 0 };
-    *error = (cli_error) { .text = "" };
+    *error = (base_error) { .text = "" };
     const bool ok = obj_add(text, strlen(text), &sources, builder, error);
     sources_free(&sources);
     return ok;
 }
 
-static void expect(const verdict *v) {
+static void expect(const expectation *v) {
     scene_builder builder;
-    cli_error error;
+    base_error error;
     char said[256] = "";
     const bool ok = reads(v->text, &builder, &error);
-    if (builder_count(&builder, BLOB_LEFT_OUT) > 0)
-        scene_left_out_text(builder_items(&builder, BLOB_LEFT_OUT), said, sizeof said);
+    if (builder_count(&builder, BLOB_UNSUPPORTED) > 0)
+        scene_unsupported_text(builder_items(&builder, BLOB_UNSUPPORTED), said, sizeof said);
     const char *found = ok ? said : error.text;
     if (ok != (v->triangles > 0) ||
         (ok && builder_count(&builder, BLOB_INDICES) != 3 * v->triangles) ||
@@ -43,7 +43,7 @@ static void expect(const verdict *v) {
 
 static void the_grammar_is_read(void **state) {
     (void)state;
-    static const verdict verdicts[] = {
+    static const expectation cases[] = {
         { TRIANGLE "f 1 2 3\n", 1, NULL },
         { TRIANGLE "f 1 2 3", 1, NULL },
         { "v\t0  0\t0 \r\n v 1e0 +0. .0E-3\r\nv 0 1 0 1.0\r\n\tf\t1\t2 3 # face\r\n", 1, NULL },
@@ -83,13 +83,13 @@ static void the_grammar_is_read(void **state) {
         { "mtllib\n", 0, "line 1 names no file" },
         { TRIANGLE "mtllib ../up.mtl\nf 1 2 3\n", 1, "../up.mtl (1 file outside the folder)" },
     };
-    for (size_t i = 0; i < sizeof verdicts / sizeof *verdicts; i++)
-        expect(&verdicts[i]);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        expect(&cases[i]);
 }
 
 static void a_library_s_statements_are_read(void **state) {
     (void)state;
-    static const verdict verdicts[] = {
+    static const expectation cases[] = {
         { "newmtl a\nKd 1 0.5 0\nKs 0.5\nNs 10\n\nKe 0 0 1\nillum 2\n", 1, NULL },
         { "newmtl a\n\tKd\t1e0 .5 0\r\n# no\nTr 0.5\n", 1, NULL },
         { "newmtl a\nKa 1 1 1\nNi 1.5\nsharpness 60\n", 1, NULL },
@@ -116,8 +116,8 @@ static void a_library_s_statements_are_read(void **state) {
         { "newmtl a\nmap_Kd a.mtl\n", 1, "a.mtl (1 undecodable image)" },
         { "newmtl a\nmap_Kd a.mtl\nmap_Ke a.mtl\n", 1, "a.mtl (2 undecodable images)" },
     };
-    for (size_t i = 0; i < sizeof verdicts / sizeof *verdicts; i++) {
-        verdict with = verdicts[i];
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        expectation with = cases[i];
         folder_write_text("a.mtl", with.text);
         with.text = "mtllib a.mtl\nusemtl a\n" TRIANGLE "f 1 2 3\n";
         expect(&with);
@@ -127,17 +127,17 @@ static void a_library_s_statements_are_read(void **state) {
 static void names_of_files_may_differ_in_case(void **state) {
     (void)state;
     scene_builder builder;
-    cli_error error;
+    base_error error;
     folder_write_text("Two Words.MTL", "newmtl a\nKd 0.25 0.5 0.75\n");
     assert_true(reads("mtllib two words.mtl\nusemtl a\n" TRIANGLE "f 1 2 3\n", &builder, &error));
     const scene_material *materials = builder_items(&builder, BLOB_MATERIALS);
     const scene_mesh *meshes = builder_items(&builder, BLOB_MESHES);
-    assert_int_equal(builder_count(&builder, BLOB_LEFT_OUT), 0);
+    assert_int_equal(builder_count(&builder, BLOB_UNSUPPORTED), 0);
     CHECK_WITHIN(fabs((double)materials[meshes[0].material].base_color[2] - 0.75), 1e-7);
     builder_free(&builder);
 }
 
-/* Every group is a mesh of its own, and their number alone costs nothing. */
+/* Every group is a mesh of its own, and many groups cost nothing by themselves. */
 static void many_groups_are_many_meshes(void **state) {
     (void)state;
     enum { GROUPS = 40000 };
@@ -147,14 +147,14 @@ static void many_groups_are_many_meshes(void **state) {
     for (int i = 0; i < GROUPS; i++)
         end += sprintf(end, "g part%d\nf 1 2 3\n", i);
     scene_builder builder;
-    cli_error error;
+    base_error error;
     assert_true(reads(text, &builder, &error));
     assert_int_equal(builder_count(&builder, BLOB_MESHES), GROUPS);
     builder_free(&builder);
     free(text);
 }
 
-/* The program reads what Assimp knows, in the same sandbox, and says in one line what it leaves
+/* The program reads what Assimp knows, in the same sandbox, and reports in one line what it leaves
  * out. */
 static void other_formats_are_read(void **state) {
     (void)state;
@@ -170,7 +170,7 @@ static void other_formats_are_read(void **state) {
     } files[] = { { "m.ply", ply }, { "m.stl", stl }, { "m.OFF", off } };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         scene s;
-        cli_error error = { "" };
+        base_error error = { "" };
         folder_write_text(files[i].name, files[i].text);
         if (!scene_load(in_folder(files[i].name), &(scene_options) { .no_cache = true }, &s,
                         &error))
@@ -200,22 +200,22 @@ static void what_other_formats_lose_is_named(void **state) {
         "url=\"#g\"/></node><node><instance_light url=\"#l\"/></node></visual_scene>"
         "</library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
     scene s;
-    cli_error error = { "" };
+    base_error error = { "" };
     if (!scene_load(in_folder("m.dae"), &(scene_options) { .no_cache = true }, &s, &error))
         fail_msg("%s", error.text);
-    assert_int_equal(s.left_out_count, 1);
-    assert_string_equal(s.left_out[0].noun, "light");
+    assert_int_equal(s.unsupported_count, 1);
+    assert_string_equal(s.unsupported[0].noun, "light");
     scene_free(&s);
 }
 
 static void a_strict_reading_leaves_nothing_out(void **state) {
     (void)state;
     scene s;
-    cli_error error = { "" };
+    base_error error = { "" };
     scene_options options = { .no_cache = true };
     folder_write_text("lines.obj", TRIANGLE "f 1 2 3\nl 1 2\n");
     assert_true(scene_load(in_folder("lines.obj"), &options, &s, &error));
-    assert_int_equal(s.left_out_count, 1);
+    assert_int_equal(s.unsupported_count, 1);
     scene_free(&s);
     options.strict = true;
     assert_false(scene_load(in_folder("lines.obj"), &options, &s, &error));

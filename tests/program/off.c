@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* OFF: words that lines may hold as they like. */
+/* OFF: words that lines may hold in any arrangement. */
 #include "app/scene/instance.h"
 #include "app/scene/scene.h"
 #include "tests/program/folder.h"
@@ -54,7 +54,7 @@ static void what_is_no_off_is_refused(void **state) {
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         scene s;
-        cli_error error = { "" };
+        base_error error = { "" };
         folder_write_text("bad.off", files[i].text);
         assert_false(
             scene_load(in_folder("bad.off"), &(scene_options) { .no_cache = true }, &s, &error));

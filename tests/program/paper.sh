@@ -25,7 +25,7 @@ grep -q '^"library: fused with Eq. 13, by differences",3,' "$WORK/page/operation
     fail "a comma in a label is not the label's"
 grep -q 'the recurrence takes fewer operations from 3 bands on, 7 against 8' "$WORK/page/index.html" ||
     fail "the page hides what contradicts the paper"
-# what the table step says of the paper's words follows from the figures beside it, whichever way they fall
+# What the table step says of the paper's statements must follow from the figures beside it, whatever they are.
 set -- $(sed -n 's/^the zonal coefficients cost little.*[,"]\([0-9]*\) of \([0-9]*\) ns a light, 10 bands",\([a-z]*\).*/\1 \2 \3/p' \
     "$WORK/page/verdict.csv")
 [ $# = 3 ] || fail "nothing is said of what Y_lm costs beside Z_l: $(cat "$WORK/page/verdict.csv")"
@@ -49,7 +49,7 @@ for file in figure4.svg accuracy.csv tabulated.csv preintegrated.csv preintegrat
     grep -q "$file" "$WORK/page/index.html" || fail "$file is not on the page"
 done
 
-# derivatives: half the step, a quarter of the error; constants: half of it
+# Half the step gives a quarter of the error of derivatives, and half that of constants.
 awk -F, '$1 == "as they are" { constant[++n] = $3 } $1 == "with derivatives" { x[++m] = $2; linear[m] = $3 }
     END { exit !(n == m && m > 9 && linear[1] < constant[1] / 50 && constant[4] / constant[1] < 1.01 * x[4] / x[1] &&
         linear[4] / linear[1] > 0.98 * (x[4] / x[1]) ^ 2) }' "$WORK/page/gradients.csv" ||

@@ -4,7 +4,7 @@ set -eu
 . tests/checks/common.sh
 unset LAMPION_DATA
 
-# a name is one word, whatever is in it, and the page tells the command as a shell takes it
+# A name is one word, whatever is in it, and the page quotes the command for a shell.
 data="$WORK/it's a \\ folder --spp 1"
 mkdir -p "$data/data/sponza" "$WORK/more"
 own_scene "$data/data/sponza/sponza.gltf"
@@ -26,17 +26,17 @@ for file in figure5-5.png figure5-8.png figure5-floor-8.png figure5-curtain-trut
     [ -s "$WORK/scene/$file" ] && grep -q "$file" "$WORK/scene/index.html" || fail "$file is missing"
 done
 
-# an option goes before the environment; without data there are stand-ins
+# An option overrides the environment; without data there are stand-ins.
 LAMPION_DATA=$data "$PROGRAM" paper -o "$WORK/stand_in" --quick --step sponza --data "$WORK/more" >/dev/null || fail "the stand-in fails"
 for said in 'Here <code>builtin:atrium</code> stands in for it' 'On stand-ins, for want of data: <b>builtin:atrium</b>'; do
     grep -qF "$said" "$WORK/stand_in/index.html" || fail "the page does not say: $said"
 done
-# what the caption of figure 5 says of more bands follows from the figures beside it
+# What the caption of figure 5 says of more bands must follow from the figures beside it.
 set -- $(sed -n 's/^colors show more by 8 bands.*saturation \([0-9.]*\) and \([0-9.]*\), truth.*",\([a-z]*\).*/\1 \2 \3/p' "$WORK/stand_in/verdict.csv")
 [ $# = 3 ] || fail "nothing is said of colors: $(cat "$WORK/stand_in/verdict.csv")"
 [ "$(awk -v a="$1" -v b="$2" 'BEGIN { print (b >= a ? "holds" : "not") }')" = "$3" ] || fail "colors $1 and $2: $3"
 
-# materials: NAME_rgb.bsdf is a measurement, NAME.binary a fit, and of many folders the first that has one counts
+# NAME_rgb.bsdf is a measurement, NAME.binary a fit, and of several folders the first that has one counts.
 mkdir "$WORK/more/rgl_neural"
 "$PROGRAM" brdf convert sgd:red-fabric -o "$WORK/more/rgl_neural/acrylic_felt_orange.binary"
 "$PROGRAM" brdf convert sgd:white-paint -o "$WORK/paper_white_rgb.bsdf"

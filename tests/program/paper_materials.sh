@@ -7,7 +7,7 @@ unset LAMPION_DATA
 
 "$PROGRAM" paper -o "$WORK/materials" --step materials >/dev/null || fail "the step of materials fails"
 ! grep -q 'class="failed"' "$WORK/materials/index.html" || fail "the step of materials failed"
-# verdict HOLDS TEXT: that of the claim
+# verdict HOLDS TEXT: checks the verdict of the claim.
 judged() {
     told="not on stand-ins"
     [ "$1" = 0 ] || told=holds

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* PLY: elements of any number, in text and in both orders of bytes. */
+/* PLY: elements of any number, as text and in both byte orders. */
 #include "app/scene/builder.h"
 #include "app/scene/instance.h"
 #include "app/scene/scene.h"
@@ -26,7 +26,7 @@ static void polygons_are_fans(void **state) {
     scene_free(&s);
 }
 
-/* Every second triangle of a strip is the other way round, and each strip begins anew. */
+/* Every second triangle of a strip is reversed, and each strip starts again. */
 static void strips_are_triangles(void **state) {
     (void)state;
     scene s = load_text(ASCII "element vertex 4\n" POSITIONS
@@ -47,12 +47,12 @@ typedef struct bytes {
 } bytes;
 
 static void put(bytes *b, const void *value, size_t size) {
-    const unsigned char *const from = value; /* little-endian, as the machines of tests are */
+    const unsigned char *const from = value; /* little-endian, like the machines of tests */
     for (size_t i = 0; i < size; i++)
         b->data[b->size++] = from[b->big ? size - 1 - i : i];
 }
 
-/* Positions are a float, a double and a short; what is not known is passed over. The first byte of
+/* Positions are a float, a double and a short; unknown properties are skipped. The first byte of
  * the data is a line feed. */
 static void numbers_of_every_kind_are_read(void **state) {
     (void)state;
@@ -99,7 +99,7 @@ static void numbers_of_every_kind_are_read(void **state) {
         }
 }
 
-/* As a screen shows them. */
+/* The colors are those that a screen shows. */
 static void colors_of_vertices_are_drawn(void **state) {
     (void)state;
     static const char *const types[] = { "uchar", "ushort", "float" };
@@ -120,7 +120,7 @@ static void colors_of_vertices_are_drawn(void **state) {
     }
 }
 
-/* Those of corners, as MeshLab writes them, and those of vertices. */
+/* Coordinates are those of corners, as MeshLab writes them, and those of vertices. */
 static void coordinates_of_textures_are_read(void **state) {
     (void)state;
     scene s = load_text(ASCII "element vertex 3\n" POSITIONS "element face 1\n"
@@ -135,8 +135,8 @@ static void coordinates_of_textures_are_read(void **state) {
                   "property float s\nproperty float t\n" FACES(
                       "1") "end_header\n0 0 0 0.125 0.25\n1 0 0 0.5 0.625\n0 1 0 0 0\n3 0 1 2\n");
     assert_true(s.vertices[s.indices[1]].uv[0][1] == 0.375f);
-    assert_int_equal(s.left_out_count, 1);
-    assert_string_equal(s.left_out[0].noun, "missing file");
+    assert_int_equal(s.unsupported_count, 1);
+    assert_string_equal(s.unsupported[0].noun, "missing file");
     scene_free(&s);
 }
 
@@ -148,13 +148,13 @@ static void lines_may_hold_more_and_faces_be_missing(void **state) {
             "3") "end_header\n0 0 0 9 9\n1 0 0\n1 1 0 7\n0 1 0\n3 0 1 2 9 1 1 1\n3 0 2 3\n");
     assert_int_equal(scene_triangle_count(&s), 2);
     CHECK_WITHIN(fabs(scene_area(&s) - 1), 1e-6);
-    assert_int_equal(s.left_out_count, 1);
-    assert_string_equal(s.left_out[0].noun, "missing face");
-    assert_int_equal(s.left_out[0].count, 1);
+    assert_int_equal(s.unsupported_count, 1);
+    assert_string_equal(s.unsupported[0].noun, "missing face");
+    assert_int_equal(s.unsupported[0].count, 1);
     scene_free(&s);
 }
 
-/* What the line on stderr says of a file that is none. */
+/* The line on stderr says what is wrong with a file that is not a PLY. */
 static void what_is_no_ply_is_refused(void **state) {
     (void)state;
     static const struct {
@@ -182,7 +182,7 @@ static void what_is_no_ply_is_refused(void **state) {
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         scene s;
-        cli_error error = { "" };
+        base_error error = { "" };
         folder_write_text("bad.ply", files[i].text);
         assert_false(
             scene_load(in_folder("bad.ply"), &(scene_options) { .no_cache = true }, &s, &error));

@@ -7,7 +7,7 @@ set -eu
 header=light_x,light_y,light_z,radius,recv_x,recv_y,recv_z
 vectors=ruler/vectors/sphere.csv
 cut -d, -f1-7 "$vectors" | "$PROGRAM" project --batch - --bands 10 >"$WORK/rows"
-# bound: 2e-5 of the largest coefficient of the row
+# bound: 2e-5 of the largest coefficient of the row.
 cut -d, -f1-107 "$vectors" | paste -d, - "$WORK/rows" | awk -F, '
     NR == 1 { next }
     {
@@ -22,7 +22,7 @@ cut -d, -f1-107 "$vectors" | paste -d, - "$WORK/rows" | awk -F, '
     }
     END { exit bad || NR < 2 }' >"$WORK/log" || fail "$(cat "$WORK/log")"
 
-# one light three ways, and as a row of a table
+# One light is given in three ways, and as a row of a table.
 set -- --light 1,2.5,-3 --radius 0.75 --point 0.25,0,1 --bands 4 --radiance 2.5
 printf '%s\r\n1,2.5,-3,0.75,0.25,0,1\r\n\r\n' $header |
     "$PROGRAM" project --batch - --bands 4 --radiance 2.5 >"$WORK/table"
@@ -33,7 +33,7 @@ tail -n 1 "$WORK/table" | cmp - "$WORK/text" || fail "text is not the table's ro
     cmp - "$WORK/text" || fail "json is not the table's row"
 [ "$(head -n 1 "$WORK/table")" = "$(seq -s, -f 'c_%g' 0 15)" ] || fail "the header of the table"
 
-# what part of a light comes: half of it, none, and all as without the column
+# The visibility of a light is a half, none, and all, which is the same as without the column.
 printf '%s,visibility\n1,2.5,-3,0.75,0.25,0,1,0.5\n1,2.5,-3,0.75,0.25,0,1,0\n1,2.5,-3,0.75,0.25,0,1,1\n' $header |
     "$PROGRAM" project --batch - --bands 4 --radiance 5 >"$WORK/visible"
 sed -n 2p "$WORK/visible" | cmp - "$WORK/text" || fail "half of twice the light"
@@ -41,7 +41,7 @@ sed -n 2p "$WORK/visible" | cmp - "$WORK/text" || fail "half of twice the light"
 "$PROGRAM" project "$@" --radiance 5 --format csv | tail -n 1 >"$WORK/all"
 tail -n 1 "$WORK/visible" | cmp - "$WORK/all" || fail "all of the light"
 
-# every instruction set prints the same
+# Every instruction set must print the same.
 for mask in 1 2 4 8; do
     "$PROGRAM" project "$@" --format csv --cpu-mask $mask | cmp - "$WORK/table" || fail "mask $mask"
 done
@@ -49,7 +49,7 @@ for mask in 0 16 avx2; do
     if "$PROGRAM" project "$@" --cpu-mask $mask >"$WORK/out" 2>&1; then fail "mask $mask"; fi
 done
 
-# a table of many blocks comes out complete and in order
+# A table of many blocks must be complete and in order.
 awk -v header=$header 'BEGIN { print header; for (i = 1; i <= 20000; i++) print i % 7 ",0,3," i / 20000 ",0,0,0" }' \
     </dev/null >"$WORK/many"
 "$PROGRAM" project --batch "$WORK/many" --bands 1 >"$WORK/many-rows"
@@ -58,11 +58,11 @@ printf '%s\n' "$header" "$(tail -n 1 "$WORK/many")" | "$PROGRAM" project --batch
     tail -n 1 >"$WORK/last"
 tail -n 1 "$WORK/many-rows" | cmp - "$WORK/last" || fail "rows are out of order"
 
-# the farthest lights that are taken still have coefficients
+# The farthest lights allowed must still have coefficients.
 printf '%s\n1e17,1e17,1e17,1e17,-1e17,-1e17,-1e17\n' $header | "$PROGRAM" project --batch - --bands 2 >"$WORK/far"
 grep -Eq 'nan|inf' "$WORK/far" && fail "the farthest light: $(tail -n 1 "$WORK/far")"
 
-# refuse STATUS MESSAGE ARGUMENT…: one line, as said; no coefficient on a usage error.
+# refuse STATUS MESSAGE ARGUMENT…: the command must print MESSAGE in one line, and no coefficient on a usage error.
 refuse() {
     expected=$1 message=$2
     shift 2
@@ -82,7 +82,7 @@ printf '%s\n1,2,3,-0.5,0,0,0\n' $header >"$WORK/negative"
 refuse 1 "lampion: $WORK/negative: line 2: radius: -0.5 is negative" --batch "$WORK/negative"
 printf '%s\n1,2,3,1,0,0,0\n0,2e17,0,1,0,0,0\n' $header >"$WORK/far"
 refuse 1 "lampion: $WORK/far: line 3: light_y: 2e+17 is out of range (up to 1e+17)" --batch "$WORK/far"
-# blanks around numbers and names do not count
+# Blanks around numbers and names do not count.
 printf '%s\n1,2,3,.5,0,0,0\n' $header | "$PROGRAM" project --batch - --bands 2 >"$WORK/tight"
 printf '%s\n1, 2, 3, .5, 0, 0, 0\n' "$(echo $header | sed 's/,/, /g')" | "$PROGRAM" project --batch - --bands 2 >"$WORK/blanks"
 cmp "$WORK/tight" "$WORK/blanks" || fail "blanks after commas change a row"

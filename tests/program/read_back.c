@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* PNG, CSV and JSON as the program writes them, read by a few lines of the formats' own
  * specifications and by zlib: every byte, float and letter is what was in memory. */
-#include "app/file/file.h"
+#include "app/base/error.h"
+#include "app/base/file.h"
+#include "app/base/file_json.h"
 #include "app/image/png.h"
 #include "app/scene/scene.h"
 #include "tests/program/folder.h"
 
-#include <cjson/cJSON.h>
+#include <jansson.h>
 #include <lampion/light.h>
 #include <zlib.h>
 
@@ -14,7 +16,7 @@ enum { SIDE_MAX = 40, PIXELS_MAX = 3 * SIDE_MAX * SIDE_MAX };
 
 static char *read_file(const char *name, size_t *size) {
     void *bytes;
-    cli_error error;
+    base_error error;
     if (!file_read(in_folder(name), 1 << 24, &bytes, size, &error))
         fail_msg("%s", error.text);
     return bytes;
@@ -74,7 +76,7 @@ static int paeth(int a, int b, int c) {
     return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 }
 
-/* Takes back what the filter of a row did. */
+/* Reverses the filter of a row. */
 static void unfilter(const unsigned char *row, size_t width, const unsigned char *above,
                      unsigned char *out) {
     for (size_t i = 0; i < 3 * width; i++) {
@@ -108,7 +110,7 @@ static void expect_text(const png_file *png, const char *key, const char *text) 
     assert_memory_equal(png->text, key, before);
     assert_memory_equal(png->text + before, "\1\0", 2); /* deflated */
     size_t at = before + 2;
-    for (int i = 0; i < 2; i++) /* its language, and the key in that */
+    for (int i = 0; i < 2; i++) /* its language, and the keyword in that language */
         at += strlen((const char *)png->text + at) + 1;
     assert_int_equal(uncompress((Bytef *)found, &size, png->text + at, png->text_size - at), Z_OK);
     assert_string_equal(found, text);
@@ -123,7 +125,7 @@ static void every_pixel_of_a_png_is_found(void **state) {
     int tried = 0;
     for (int width = 1; width <= SIDE_MAX; width += step)
         for (int height = 1; height <= SIDE_MAX; height += step, tried++) {
-            cli_error error;
+            base_error error;
             const double noise = check_random(); /* the rest is smooth: other filters are chosen */
             for (int i = 0; i < 3 * width * height; i++)
                 rgb8[i] = (unsigned char)(check_random() < noise ? 256 * check_random()
@@ -143,7 +145,7 @@ static void every_pixel_of_a_png_is_found(void **state) {
 
 /* --- CSV (RFC 4180) --------------------------------------------------------------------------- */
 
-/* The program's output as a file of the folder. */
+/* Writes the program's output to a file of the folder. */
 static void run(const char *arguments, const char *name) {
     char command[2048];
     snprintf(command, sizeof command, "'%s' %s >'%s'", getenv("LAMPION_PROGRAM"), arguments,
@@ -176,8 +178,8 @@ static void every_float_of_a_csv_is_found(void **state) {
     static float expected[ROWS * VALUES];
     const lmp_spheres spheres = lmp_spheres_of(lights);
     const lmp_vec3 origin = { 0, 0, 0 };
-    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_same(&origin), ROWS, LMP_SH_INTERLEAVED, 0,
-                         expected);
+    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_same(&origin), ROWS,
+                         lmp_sh_interleaved(expected, 0));
     for (int i = 0; i < ROWS * VALUES; i++) {
         char *end;
         const float found = strtof(at, &end);
@@ -192,7 +194,7 @@ static void every_float_of_a_csv_is_found(void **state) {
 
 /* --- JSON (RFC 8259) -------------------------------------------------------------------------- */
 
-/* Behind the value that begins here; the test fails where that is none. */
+/* Returns what follows the value that begins here; the test fails where it is not a value. */
 static const char *skip_value(const char *at);
 
 static const char *skip_space(const char *at) {
@@ -240,7 +242,7 @@ static const char *skip_value(const char *at) {
     return end;
 }
 
-/* The value of a name in the object that begins here. */
+/* Returns the value of a name in the object that begins here. */
 static const char *member(const char *at, const char *name) {
     assert_true(*at == '{');
     for (at = skip_space(at + 1); *at == '"';) {
@@ -271,7 +273,7 @@ static void expect_floats(const char *at, const float *numbers, int count) {
 static void every_number_of_a_json_is_found(void **state) {
     (void)state;
     scene world;
-    cli_error error;
+    base_error error;
     size_t size;
     assert_true(scene_load("builtin:atrium", NULL, &world, &error));
     run("info --json builtin:atrium", "info.json");
@@ -300,7 +302,7 @@ static void every_number_of_a_json_is_found(void **state) {
     scene_free(&world);
 }
 
-/* The bytes that a string of JSON means, up to U+FFFF. */
+/* Decodes the bytes of a JSON string, up to U+FFFF. */
 static void decode(const char *at, char *out) {
     static const char escaped[] = "\"\\/bfnrt", meant[] = "\"\\/\b\f\n\r\t";
     for (at++; *at != '"'; at++) {
@@ -310,7 +312,7 @@ static void decode(const char *at, char *out) {
             char digits[5] = "";
             memcpy(digits, at + 1, 4);
             const unsigned long letter = strtoul(digits, NULL, 16);
-            assert_true(letter < 0x80); /* others are written as they are */
+            assert_true(letter < 0x80); /* others are written literally */
             *out++ = (char)letter;
             at += 4;
         } else {
@@ -325,12 +327,11 @@ static void decode(const char *at, char *out) {
 static void every_letter_of_a_json_is_found(void **state) {
     (void)state;
     char name[160] = "", found[160];
-    cli_error error;
+    base_error error;
     for (char c = 1; c < 127; c++)
         name[c - 1] = c;
     strcat(name, "\x7f Z\u00fcrich \u2603 \U0001f3ee");
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "name", name);
+    json_t *root = json_pack("{s:s}", "name", name);
     char *const text = file_json_text(root, true, "text", &error);
     assert_non_null(text);
     assert_true(*skip_space(skip_value(text)) == '\0');

@@ -53,7 +53,7 @@ static inline size_t read_text(const char *name, char *text, size_t size) {
     return got;
 }
 
-/* What the program printed must be one line that starts with "lampion" and holds `expected`. */
+/* Asserts that the program printed one line that starts with "lampion" and contains `expected`. */
 static inline void assert_one_line(int status, const char *what, const char *expected) {
     char text[4096];
     const size_t printed = read_text("stdout", text, sizeof text);
@@ -63,7 +63,7 @@ static inline void assert_one_line(int status, const char *what, const char *exp
         fail_msg("%s: status %d, \"%s\" instead of \"%s\"", what, status, text, expected);
 }
 
-/* A folder with a cache of its own, and the files that are there in any case. */
+/* Makes a folder with a cache of its own, and the files that every test needs. */
 static inline int make_refused_folder(void **state) {
     (void)state;
     if (!mkdtemp(folder) || !getenv("LAMPION_PROGRAM"))

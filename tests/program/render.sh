@@ -7,7 +7,7 @@ export LAMPION_GL_DEBUG=fatal
 export ASAN_OPTIONS=detect_leaks=0
 small="--size 64x36 --bands 4"
 
-# the same command gives the same bytes; the methods give the same image
+# The same command must give the same bytes; the methods must give the same image.
 "$PROGRAM" render builtin:balls $small -o "$WORK/a.png"
 "$PROGRAM" render builtin:balls $small -o "$WORK/b.png"
 cmp "$WORK/a.png" "$WORK/b.png" || fail "two runs differ"
@@ -15,11 +15,11 @@ for method in zonal coefficients; do
     "$PROGRAM" render builtin:balls $small --method $method -o "$WORK/$method.exr"
     "$PROGRAM" render builtin:balls --size 16x9 --bands 128 --device cpu --method $method -o "$WORK/cpu-$method.exr"
 done
-# by rounding, and by what 128 bands lack of the diffuse lobe, of which zonal sums have all
+# Methods differ by rounding, and by what 128 bands lack of the diffuse lobe, which zonal sums have exactly.
 "$PROGRAM" compare "$WORK/cpu-zonal.exr" "$WORK/cpu-coefficients.exr" --fail-above rmse=5e-5 ||
     fail "the CPU's images differ by more than 128 bands do"
 
-# what is unlit has the colors of its vertices, on every device and in the reference
+# Unlit materials take the colors of their vertices, on every device and in the reference.
 cat >"$WORK/unlit.gltf" <<'END'
 {"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}]}],"materials":[{"extensions":{"KHR_materials_unlit":{}}}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":72}],"buffers":[{"byteLength":72,"uri":"data:application/octet-stream;base64,AABAwAAAQMAAAAAAAABAQAAAQMAAAAAAAAAAAAAAQEAAAAAAAACAP83MTD4AAAAAAACAP83MTD4AAAAAAACAP83MTD4AAAAA"}]}
 END
@@ -33,14 +33,14 @@ for device in cpu gpu; do
         fail "$device: an unlit surface has another color than its vertices"
 done
 
-# sequences: numbered, moving, and of one exposure
+# Sequences are numbered, move, and share one exposure.
 "$PROGRAM" render builtin:balls $small --frames 2 --fps 1 -o "$WORK/f_%03d.png"
 [ -f "$WORK/f_000.png" ] && [ -f "$WORK/f_001.png" ] || fail "frames are not numbered"
 cmp -s "$WORK/f_000.png" "$WORK/f_001.png" && fail "lights do not move"
 "$PROGRAM" render builtin:balls $small --frames 1 -o "$WORK/g.exr"
 [ -f "$WORK/g_0000.exr" ] || fail "the number does not go before the extension"
 
-# shards: their union is the whole, byte for byte, and so is any range of frames
+# The union of shards, and of any ranges of frames, is the whole, byte for byte.
 mkdir "$WORK/whole" "$WORK/parts" "$WORK/range"
 "$PROGRAM" render builtin:balls $small --frames 5 -o "$WORK/whole/%04d.png"
 for part in 1 2 3; do
@@ -55,13 +55,13 @@ diff -r "$WORK/whole" "$WORK/range" || fail "a range differs from the whole"
 "$PROGRAM" render builtin:balls $small --frames 1 --shard 1/2 -o "$WORK/empty_%d.png"
 [ ! -e "$WORK/empty_0.png" ] || fail "an empty shard has a frame"
 
-# statistics
+# --stats reports these values.
 "$PROGRAM" render builtin:balls $small --stats --compare-methods --repeat 1 -o "$WORK/s.png" >"$WORK/stats"
 for word in '"triangles"' '"zonal_speedup"' '"coefficients"' '"device"' '"shade"' '"total"'; do
     grep -q "$word" "$WORK/stats" || fail "--stats without $word"
 done
 
-# a field draws what sums do, and tells what it is
+# A field draws what sums do, and is described.
 "$PROGRAM" render builtin:balls $small --method zonal --device cpu -o "$WORK/sums.exr"
 "$PROGRAM" render builtin:balls $small --method field --device cpu --field-grid 12x9x12 --field-error 0.02 --stats --repeat 1 \
     -o "$WORK/field.exr" >"$WORK/stats"
@@ -70,12 +70,12 @@ for word in '"field"' '"nodes"' '"bytes"' '"update_milliseconds"' '"evaluate_mil
     grep -q "$word" "$WORK/stats" || fail "--stats of a field without $word"
 done
 "$PROGRAM" compare "$WORK/field.exr" "$WORK/sums.exr" --fail-above rmse=1e-3 || fail "a field's image is another"
-# the method of so many bands where none is asked for, in view as here
+# Without --method the number of bands chooses the method, in view as in render.
 for rule in "32 zonal" "33 preintegrated"; do
     "$PROGRAM" render builtin:ball --size 8x8 --bands "${rule% *}" --stats --repeat 1 -o "$WORK/rule.png" >"$WORK/rule"
     grep -q "\"method\":.*\"${rule#* }\"" "$WORK/rule" || fail "${rule% *} bands are not shaded by ${rule#* }"
 done
-# and of so many lights, where the CPU shades
+# Where the CPU shades, the number of lights chooses, too.
 for rule in "3 cpu zonal 480x270" "2000 cpu field 480x270" "2000 gpu zonal 64x36"; do
     set -- $rule
     "$PROGRAM" render builtin:balls --size "$4" --bands 3 --random-lights "$1" --device "$2" --samples 1 --stats \
@@ -87,23 +87,23 @@ done
 for word in '"field"' '"update_milliseconds"' '"resting_milliseconds"'; do
     grep -q "$word" "$WORK/stats" || fail "--stats of a field on the GPU without $word"
 done
-# hardware moves corners to 1/256 of a pixel: 3e-5 by every method
+# Hardware moves corners to 1/256 of a pixel, which gives 3e-5 by every method.
 bound=1e-4
 if grep -q llvmpipe "$WORK/stats"; then bound=1e-5; fi
 "$PROGRAM" compare "$WORK/gpu.exr" "$WORK/field.exr" --fail-above rmse=$bound || fail "a field on the GPU is another"
 
-# samples smooth: more distinct gray levels at edges means other bytes
+# Samples smooth edges: more distinct gray levels there mean other bytes.
 "$PROGRAM" render builtin:balls $small --samples 4 -o "$WORK/smooth.png"
 cmp -s "$WORK/smooth.png" "$WORK/a.png" && fail "--samples changes nothing"
 
-# parallel rays; and a scene that is rotated with its camera and lights looks the same
+# Parallel rays work; and a scene that is rotated with its camera and lights looks the same.
 "$PROGRAM" render builtin:balls $small -o "$WORK/parting.exr"
 "$PROGRAM" render builtin:balls $small --no-shadows --orthographic 3 -o "$WORK/parallel.exr"
 "$PROGRAM" render builtin:balls $small --no-shadows --orthographic 3 --up z -o "$WORK/up.exr"
 "$PROGRAM" compare "$WORK/up.exr" "$WORK/parallel.exr" --fail-above rmse=1e-4 || fail "--up z leaves something as it was"
 cmp -s "$WORK/parallel.exr" "$WORK/parting.exr" && fail "--orthographic changes nothing"
 
-# what has no effect is said, and stops nothing
+# Options without effect are reported, and stop nothing.
 noted() {
     text=$1
     shift
@@ -116,7 +116,7 @@ echo '{ "lights": [] }' >"$WORK/none.json"
 noted "$WORK/none.json: has no lights, so the scene is dark: add some to its \"lights\", such as \
 { \"position\": [0, 3, 0], \"radius\": 0.2, \"power\": 100 }, or leave --lights out" --lights "$WORK/none.json"
 
-# what info --lights prints is a file of lights but for what is around it, and gives the same image
+# The lights in what info --lights prints make a lights file, which gives the same image.
 "$PROGRAM" info --lights builtin:balls >"$WORK/each" || fail "info --lights"
 [ "$(wc -l <"$WORK/each")" = "$("$PROGRAM" info builtin:balls | awk '$1 == "lights" { print $2 + 0 }')" ] || fail "not a line per light"
 { echo '{ "lights": ['; sed '$!s/$/,/' "$WORK/each"; echo '] }'; } >"$WORK/each.json"
@@ -124,21 +124,21 @@ noted "$WORK/none.json: has no lights, so the scene is dark: add some to its \"l
 "$PROGRAM" render builtin:balls $small --lights "$WORK/each.json" -o "$WORK/each.exr"
 cmp "$WORK/own.exr" "$WORK/each.exr" || fail "info --lights gives other lights"
 
-# names of frames that FILE does not say are said; those that it says are not
+# Names of frames that FILE does not determine are printed; those that it does are not.
 "$PROGRAM" render builtin:ball $small --frames 2-3 -o "$WORK/turn.exr" 2>"$WORK/err"
 grep -qF "writing $WORK/turn_0002.exr … $WORK/turn_0003.exr (" "$WORK/err" || fail "names of frames: $(cat "$WORK/err")"
 [ -s "$WORK/turn_0002.exr" ] && [ -s "$WORK/turn_0003.exr" ] || fail "the frames have other names"
 "$PROGRAM" render builtin:ball $small --frames 1 -o "$WORK/turn_%d.exr" 2>"$WORK/err"
 [ -s "$WORK/turn_0.exr" ] && [ ! -s "$WORK/err" ] || fail "names that are given are told: $(cat "$WORK/err")"
 
-# a material without a name is written as two quotes
+# A material without a name is written as two quotes.
 own_scene "$WORK/plain.gltf"
 sed -i 's/"name": "floor", //' "$WORK/plain.gltf"
 "$PROGRAM" info "$WORK/plain.gltf" | grep -q '^materials  *[0-9]*: ""' || fail "a name that is empty goes unseen"
 "$PROGRAM" render "$WORK/plain.gltf" $small --material floor=ggx:0.3 -o "$WORK/plain.png" 2>&1 | grep -q 'is not one of ""' ||
     fail "an empty name in a message goes unseen"
 
-# refusals: status, one line, nothing written
+# Refusals have a status and one line, and write nothing.
 refused() {
     status=$1
     shift
@@ -174,18 +174,18 @@ refused 2 builtin:ball -o "$WORK/x.png" --help=x
 refused 1 builtin:ball -o "$WORK/x.png" --eye 1,2,3 --target 1,2,3
 refused 1 "$WORK/none.gltf" -o "$WORK/x.png"
 
-# a file at the limit of its size is an error as any other
+# A file at its size limit is an error like any other.
 (ulimit -f 1 && refused 1 builtin:ball --size 640x360 --bands 3 -o "$WORK/long.exr") || fail "a long file: $(cat "$WORK/err")"
 [ -z "$(ls "$WORK" | grep long)" ] || fail "a part of a long file is left"
 
-# paths of lights
+# Lights follow paths.
 "$PROGRAM" render builtin:balls $small --frames 2 --fps 1 --animate bounce -o "$WORK/b_%d.png"
 cmp -s "$WORK/b_1.png" "$WORK/f_001.png" && fail "--animate changes nothing"
 refused 1 builtin:ball -o "$WORK/x.png" --frames 1 --animate scene
 refused 1 builtin:ball -o "$WORK/x.png" --frames 1 --animate none.json
 refused 2 builtin:ball -o "$WORK/x.png" --animate orbit
 
-# rays [OPTION…]: how many shadows take
+# rays [OPTION…]: prints how many rays the shadows take.
 rays() {
     "$PROGRAM" render builtin:ball $small --device cpu --shadows --stats -o "$WORK/rays.exr" "$@" >"$WORK/rays" 2>&1 ||
         fail "shadows $*: $(cat "$WORK/rays")"
@@ -197,7 +197,7 @@ twice=$(rays --shadow-rays 4) sparse=$(rays --shadow-sparse)
     fail "four rays a pixel are $twice, two $all"
 [ "$sparse" -gt 0 ] && [ $((sparse * 9)) -lt $((all * 5)) ] || fail "--shadow-sparse sends $sparse of $all rays"
 
-# shadows are the default, except where the studio alone lights a room; in the studio they fall on ground
+# Shadows are the default, except where only the studio lights a room; in the studio they fall on ground.
 alike() {
     "$PROGRAM" render -q $small $2 -o "$WORK/one.png" && "$PROGRAM" render -q $small $3 -o "$WORK/two.png" || fail "render $2, $3"
     same=yes

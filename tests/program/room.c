@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Where lights and cameras find room: in a building, and around what is none. */
+/* Positions of lights and cameras: in a building, and around what is not one. */
 #include "app/scene/space.h"
 
 #include "tests/program/folder.h"
@@ -12,8 +12,8 @@
 
 #define HALF 2.0f
 
-/* A cube of side 4, its faces with normals inwards (a room) or outwards (a block), or without any:
- * counter-clockwise as they are seen from inside or outside. */
+/* Writes a cube of side 4 with normals inwards (a room), outwards (a block), or without normals,
+ * when it is counter-clockwise as seen from inside or outside. */
 static scene write_cube(bool inwards, bool normals) {
     static const int faces[6][4] = { { 1, 2, 4, 3 }, { 5, 7, 8, 6 }, { 1, 5, 6, 2 },
                                      { 3, 4, 8, 7 }, { 1, 3, 7, 5 }, { 2, 6, 8, 4 } };
@@ -23,7 +23,7 @@ static scene write_cube(bool inwards, bool normals) {
     const int sign = inwards ? -1 : 1;
     size_t used = 0;
     scene s;
-    cli_error error;
+    base_error error;
     for (int i = 0; i < 8; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "v %d %d %d\n", i & 4 ? 2 : -2,
                                  i & 2 ? 2 : -2, i & 1 ? 2 : -2);
@@ -49,7 +49,7 @@ static scene load_cube(bool inwards) {
     return write_cube(inwards, true);
 }
 
-/* Largest coordinate: below 2 inside the cube. */
+/* Returns the largest coordinate, which is below 2 inside the cube. */
 static float outside(lmp_vec3 p) {
     return fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
 }
@@ -82,7 +82,8 @@ static void the_camera_stands_inside_a_room_and_outside_a_block(void **state) {
     }
 }
 
-/* An OBJ without normals says nothing of sides: what is closed is a block, however it is wound. */
+/* An OBJ without normals does not say which side is outside: what is closed is a block, in any
+ * winding. */
 static void a_closed_mesh_without_sides_is_a_block(void **state) {
     (void)state;
     for (int clockwise = 0; clockwise < 2; clockwise++) {
@@ -100,14 +101,14 @@ static void a_closed_mesh_without_sides_is_a_block(void **state) {
     }
 }
 
-/* A face is missing: what is left is wound as a room, but one looks into it from there. */
+/* With a face missing, the rest is wound as a room, but one looks into it from there. */
 static void an_open_mesh_is_what_it_is_wound_as(void **state) {
     (void)state;
     static const char box[] =
         "v -2 -2 -2\nv -2 -2 2\nv -2 2 -2\nv -2 2 2\nv 2 -2 -2\nv 2 -2 2\nv 2 2 -2\nv 2 2 2\n"
         "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\n";
     scene s;
-    cli_error error;
+    base_error error;
     folder_write_text("box.obj", box);
     assert_true(
         scene_load(in_folder("box.obj"), &(scene_options) { .no_cache = true }, &s, &error));
@@ -118,14 +119,14 @@ static void an_open_mesh_is_what_it_is_wound_as(void **state) {
     scene_free(&s);
 }
 
-/* Around the hole of a ring there are walls, but nobody stands in it. */
+/* There are walls around the hole of a ring, but nobody stands in it. */
 static void a_ring_is_no_building(void **state) {
     (void)state;
     static const char ring[] =
         "v -2 -2 -2\nv -2 -2 2\nv -2 2 -2\nv -2 2 2\nv 2 -2 -2\nv 2 -2 2\nv 2 2 -2\nv 2 2 2\n"
         "f 1 3 4 2\nf 5 6 8 7\nf 1 5 7 3\nf 2 4 8 6\n";
     scene s;
-    cli_error error;
+    base_error error;
     folder_write_text("ring.obj", ring);
     assert_true(
         scene_load(in_folder("ring.obj"), &(scene_options) { .no_cache = true }, &s, &error));
@@ -137,13 +138,13 @@ static void a_ring_is_no_building(void **state) {
     scene_free(&s);
 }
 
-/* 200 of them in either: those of the room are clear of its walls, those of the block are not in
- * it, and none is below its floor. */
+/* Each scene has 200 lights: those of the room are clear of its walls, those of the block are
+ * outside it, and none is below its floor. */
 static void random_lights_are_never_in_anything(void **state) {
     (void)state;
     for (int inwards = 0; inwards < 2; inwards++) {
         scene s = load_cube(inwards);
-        cli_error error;
+        base_error error;
         int above = 0;
         assert_true(scene_add_random_lights(&s, 200, 5, &error));
         for (size_t i = 0; i < s.light_count; i++) {
@@ -159,12 +160,12 @@ static void random_lights_are_never_in_anything(void **state) {
     }
 }
 
-/* Of 1000, seen from the camera that shows the scene, none covers more than a few degrees. */
+/* Of 1000 lights seen from the camera that shows the scene, none covers more than a few degrees. */
 static void random_lights_do_not_fill_the_view(void **state) {
     (void)state;
     for (int inwards = 0; inwards < 2; inwards++) {
         scene s = load_cube(inwards);
-        cli_error error;
+        base_error error;
         assert_true(scene_add_random_lights(&s, 1000, 7, &error));
         const scene_camera camera = scene_default_camera(&s, 1.5f);
         for (size_t i = 0; i < s.light_count; i++) {
@@ -178,7 +179,7 @@ static void random_lights_do_not_fill_the_view(void **state) {
     }
 }
 
-/* A triangle in y = 0: to its plane, its side, its corner. */
+/* Distances from a triangle in y = 0: to its plane, its side, its corner. */
 static void balls_are_measured_to_planes_sides_and_corners(void **state) {
     (void)state;
     static const struct {
@@ -191,7 +192,7 @@ static void balls_are_measured_to_planes_sides_and_corners(void **state) {
         { { 1, 0.5f, 1 }, 0.8660254f },
     };
     scene s;
-    cli_error error;
+    base_error error;
     folder_write_text("flat.obj", "v 0 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n");
     assert_true(
         scene_load(in_folder("flat.obj"), &(scene_options) { .no_cache = true }, &s, &error));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The sandbox: what the child may do, what ends it with one line of error, and everything that an
- * attacker who has taken the child over would try. */
-#include "app/sandbox/sandbox.h"
+/* The sandbox: what the child may do, what ends it with one line of error, and every escape that an
+ * attacker who has taken over the child would try. */
+#include "app/base/sandbox.h"
 
 #include "tests/program/folder.h"
 
@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SANITIZED 1 /* the address space is then not limited */
+#define SANITIZED 1 /* where the address space is not limited */
 #else
 #define SANITIZED 0
 #endif
@@ -29,10 +29,10 @@ static bool say(int output, const char *text) {
     return write(output, text, strlen(text)) == (ssize_t)strlen(text);
 }
 
-/* The text that a job's work wrote; the test fails if the job does. */
+/* Returns the text that a job's work wrote; the test fails if the job does. */
 static const char *run(const sandbox_job *job) {
     static char text[256];
-    cli_error error = { 0 };
+    base_error error = { 0 };
     void *block;
     size_t size;
     if (!sandbox_run(job, &block, &size, &error))
@@ -43,7 +43,7 @@ static const char *run(const sandbox_job *job) {
 }
 
 static void assert_error(const sandbox_job *job, const char *expected) {
-    cli_error error = { 0 };
+    base_error error = { 0 };
     void *block;
     size_t size;
     assert_false(sandbox_run(job, &block, &size, &error));
@@ -54,7 +54,7 @@ static void assert_error(const sandbox_job *job, const char *expected) {
 
 /* --- what the work may do --------------------------------------------------------------------- */
 
-static bool write_greeting(void *context, int output, cli_error *error) {
+static bool write_greeting(void *context, int output, base_error *error) {
     (void)error;
     return say(output, context);
 }
@@ -66,15 +66,15 @@ static void what_the_work_writes_comes_back(void **state) {
     assert_string_equal(run(&job), "hello");
 }
 
-static int open_in_folder(void *context, const char *name, cli_error *error) {
+static int open_in_folder(void *context, const char *name, base_error *error) {
     (void)context;
     const int file = strchr(name, '/') ? -1 : open(in_folder(name), O_RDONLY);
     if (file < 0)
-        cli_fail(error, name, "does not exist");
+        base_fail(error, name, "does not exist");
     return file;
 }
 
-static bool copy_file(void *context, int output, cli_error *error) {
+static bool copy_file(void *context, int output, base_error *error) {
     char bytes[64];
     int number;
     const int file = sandbox_open(context, &number, error);
@@ -98,8 +98,8 @@ static void files_come_from_the_parent_alone(void **state) {
     assert_error(&job, "no file can be opened");
 }
 
-/* Asks for the file again and again, until it is refused; says how often it was not. */
-static bool open_until_refused(void *context, int output, cli_error *error) {
+/* Asks for the file again and again until it is refused; writes how often it was opened. */
+static bool open_until_refused(void *context, int output, base_error *error) {
     int number, times = 0;
     for (int file; (file = sandbox_open(context, &number, error)) >= 0; times++)
         close(file);
@@ -120,19 +120,19 @@ static void files_are_opened_so_many_times(void **state) {
 
 /* --- what ends it ----------------------------------------------------------------------------- */
 
-static bool report(void *context, int output, cli_error *error) {
+static bool report(void *context, int output, base_error *error) {
     (void)output;
-    return cli_fail(error, context, "is not\nwanted");
+    return base_fail(error, context, "is not\nwanted");
 }
 
-static bool crash(void *context, int output, cli_error *error) {
+static bool crash(void *context, int output, base_error *error) {
     (void)context;
     (void)output;
     (void)error;
     return raise(SIGSEGV) == 0;
 }
 
-static bool say_nothing(void *context, int output, cli_error *error) {
+static bool say_nothing(void *context, int output, base_error *error) {
     (void)context;
     (void)output;
     (void)error;
@@ -149,7 +149,7 @@ static void failures_and_crashes_are_errors(void **state) {
                  "SCENE: does not fit into memory");
 }
 
-static bool run_forever(void *context, int output, cli_error *error) {
+static bool run_forever(void *context, int output, base_error *error) {
     (void)output;
     (void)error;
     const volatile char *never_empty = context;
@@ -158,20 +158,20 @@ static bool run_forever(void *context, int output, cli_error *error) {
     return true;
 }
 
-/* Neither this nor the next touches all it asks for: on a slow machine that would take longer
- * than the time there is. */
-static bool fill_memory(void *context, int output, cli_error *error) {
+/* Asks for memory without touching all of it, as the next job does: on a slow machine touching it
+ * would outlast the time limit. */
+static bool fill_memory(void *context, int output, base_error *error) {
     (void)output;
     for (int i = 0; i < 4096; i++) {
         volatile char *memory = malloc((size_t)1 << 20);
         if (!memory)
-            return cli_fail(error, context, "out of memory");
+            return base_fail(error, context, "out of memory");
         memory[0] = 1;
     }
     return true;
 }
 
-static bool fill_output(void *context, int output, cli_error *error) {
+static bool fill_output(void *context, int output, base_error *error) {
     (void)context;
     (void)error;
     for (off_t i = 0; i < 4096; i++)
@@ -180,8 +180,8 @@ static bool fill_output(void *context, int output, cli_error *error) {
     return true;
 }
 
-/* Closes all it has, so that nothing it could be heard by is left, and waits for ever. */
-static bool hide_and_wait(void *context, int output, cli_error *error) {
+/* Closes all its descriptors, so that nobody can hear from it, and waits for ever. */
+static bool hide_and_wait(void *context, int output, base_error *error) {
     (void)context;
     (void)output;
     (void)error;
@@ -211,7 +211,7 @@ static void limits_end_the_work(void **state) {
 
 static bool no_filter, no_promise;
 
-/* In place of the libraries' own, which the linker leaves under the other names. */
+/* Replace the libraries' functions, which the linker leaves under the other names. */
 int __real_seccomp_load(const void *filter);
 int __wrap_seccomp_load(const void *filter);
 int __wrap_seccomp_load(const void *filter) {
@@ -225,7 +225,7 @@ int __wrap_prctl(int option, unsigned long a, unsigned long b, unsigned long c, 
     return no_promise && option == PR_SET_NO_NEW_PRIVS ? -1 : __real_prctl(option, a, b, c, d);
 }
 
-/* Where a wall cannot be raised, not one byte is read. */
+/* Where the sandbox cannot be set up, not a byte is read. */
 static void without_walls_no_work_is_done(void **state) {
     (void)state;
     const sandbox_job job = { .subject = subject, .context = subject, .work = write_greeting };
@@ -253,8 +253,8 @@ static bool goes_through(const attempt *a) {
     return syscall(a->number, x[0], x[1], x[2], x[3], x[4], x[5]) != -1 || errno != EPERM;
 }
 
-/* Every attempt must be refused for its own sake: by EPERM, whatever the caller may do elsewhere.
- */
+/* Returns the first attempt that was not refused by EPERM, the sandbox's own refusal, whatever the
+ * caller may do elsewhere. */
 static const char *first_through(const attempt *attempts, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (goes_through(&attempts[i]))
@@ -355,11 +355,11 @@ static const char *reach_kernel(void) {
     return first_through(attempts, sizeof attempts / sizeof *attempts);
 }
 
-static bool try_all(void *context, int output, cli_error *error) {
+static bool try_all(void *context, int output, base_error *error) {
     const char *const reached[] = { reach_files(context), reach_processes(), reach_kernel() };
     for (size_t i = 0; i < sizeof reached / sizeof *reached; i++)
         if (reached[i])
-            return cli_fail(error, NULL, "\"%s\" was not refused", reached[i]);
+            return base_fail(error, NULL, "\"%s\" was not refused", reached[i]);
     return say(output, "held");
 }
 
@@ -386,14 +386,14 @@ typedef struct belongings {
     const char *secret;
 } belongings;
 
-static bool look_around(void *context, int output, cli_error *error) {
+static bool look_around(void *context, int output, base_error *error) {
     const belongings *const parent = context;
     char byte;
     if (getenv("LAMPION_SECRET") || parent->secret[0])
-        return cli_fail(error, NULL, "sees the environment");
+        return base_fail(error, NULL, "sees the environment");
     for (int fd = 5; fd < 1024; fd++)
         if (read(fd, &byte, 1) >= 0 || errno != EBADF)
-            return cli_fail(error, NULL, "holds the descriptor %d", fd);
+            return base_fail(error, NULL, "holds the descriptor %d", fd);
     return say(output, "blind");
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Sandboxed jobs side by side, and what they say of their progress. */
-#include "app/sandbox/sandbox.h"
+/* Sandboxed jobs side by side, and the progress that they report. */
+#include "app/base/sandbox.h"
 #include "tests/oracle/check.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ static bool say(int output, const char *text) {
 }
 
 static void run(const sandbox_job *job) {
-    cli_error error = { "" };
+    base_error error = { "" };
     void *block;
     size_t size;
     if (!sandbox_run(job, &block, &size, &error))
@@ -32,7 +32,7 @@ static void note(void *context, double done) {
     told[told_times++] = done;
 }
 
-static bool work_in_steps(void *context, int output, cli_error *error) {
+static bool work_in_steps(void *context, int output, base_error *error) {
     (void)context;
     (void)error;
     for (int i = 0; i < 100000; i++)
@@ -40,7 +40,8 @@ static bool work_in_steps(void *context, int output, cli_error *error) {
     return say(output, "done");
 }
 
-/* A few times, rising; who does not ask is told nothing, nor is anybody without a child. */
+/* Progress is reported a few times, rising; nothing is reported to a caller that does not ask, nor
+ * without a child. */
 static void the_work_tells_how_much_of_it_is_done(void **state) {
     (void)state;
     sandbox_job job = { .subject = subject, .work = work_in_steps };
@@ -59,10 +60,10 @@ typedef struct numbered {
     int number;
 } numbered;
 
-static bool write_part(void *context, int output, cli_error *error) {
+static bool write_part(void *context, int output, base_error *error) {
     const numbered *p = context;
     const char text[2] = { (char)('a' + p->number), 0 };
-    return p->number == 3 ? cli_fail(error, subject, "has no third part") : say(output, text);
+    return p->number == 3 ? base_fail(error, subject, "has no third part") : say(output, text);
 }
 
 static void jobs_run_side_by_side(void **state) {
@@ -71,7 +72,7 @@ static void jobs_run_side_by_side(void **state) {
     sandbox_job jobs[4];
     void *blocks[4];
     size_t sizes[4];
-    cli_error error;
+    base_error error;
     for (int i = 0; i < 4; i++)
         jobs[i] = (sandbox_job) { .subject = subject, .context = &parts[i], .work = write_part };
     assert_true(sandbox_run_all(jobs, 3, blocks, sizes, &error));

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* An allocator to load before the C library's (LD_PRELOAD): request number LAMPION_REFUSE of those
- * that the program itself makes, or the library whose name has LAMPION_REFUSE_TO in it, is refused,
- * or the first that is made at LAMPION_REFUSE_AT; with LAMPION_REQUESTS their number is written to
- * that file at the end, and after it the calls where they were made. All others have what they
- * want. */
+/* An allocator to load before the C library's (LD_PRELOAD): it refuses request number
+ * LAMPION_REFUSE of those made by the program itself, or by the library whose name contains
+ * LAMPION_REFUSE_TO, or the first request made at LAMPION_REFUSE_AT. With LAMPION_REQUESTS it
+ * writes their number to that file at the end, followed by the addresses of the calls. All other
+ * requests are granted. */
 #define _GNU_SOURCE /* dl_iterate_phdr */
 #include <errno.h>
 #include <link.h>
@@ -20,16 +20,16 @@ void *__libc_memalign(size_t alignment, size_t size);
 
 static uintptr_t code_start, code_end;
 static long refused;
-static uintptr_t refused_at; /* from the start of the code */
+static uintptr_t refused_at; /* as an offset from the start of the code */
 
-/* Of the program and of its children. */
+/* Calls of the program and of its children. */
 enum { CALLS = 4096 };
 static struct {
     atomic_long requests;
-    atomic_uintptr_t calls[CALLS]; /* by hash; 0: none */
+    atomic_uintptr_t calls[CALLS]; /* a hash table; 0 marks a free slot */
 } * shared;
 
-/* The first that is listed is the program. */
+/* The first object listed is the program. */
 static int find_code(struct dl_phdr_info *info, size_t size, void *library) {
     (void)size;
     if (library && !strstr(info->dlpi_name, library))

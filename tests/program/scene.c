@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes: what is read is what is in the files, lights keep their power, the cache and the random
- * numbers are exact. */
+/* Scenes: what is read is what is in the files, lights keep their power, and the cache and the
+ * random numbers are exact. */
 #include "app/scene/scene.h"
 #include "app/scene/instance.h"
 
@@ -19,10 +19,10 @@
 #define CHECK_NEAR(expected, actual, bound)                                                        \
     CHECK_WITHIN(fabs((double)(actual) - (double)(expected)), bound)
 
-/* From the cache where it lies there already. */
+/* Loads a scene, from the cache if it is there already. */
 static scene load_cached(const char *name) {
     scene loaded;
-    cli_error error = { 0 };
+    base_error error = { 0 };
     if (!scene_load(name, &(scene_options) { 0 }, &loaded, &error))
         fail_msg("%s", error.text);
     return loaded;
@@ -52,19 +52,21 @@ static void an_obj_is_read_with_its_materials(void **state) {
     CHECK_NEAR(98.0, 2.0 / pow((double)material->roughness, 4.0) - 2.0, 0.01);
     /* The image's v is up, the scene's is down. */
     CHECK_NEAR(1.0, s.vertices[0].uv[0][1], 1e-6);
-    /* The emissive square is one light of the same power: area times pi times radiance. */
+    /* The emissive square is a light of the same shape that shines from its front. */
     assert_int_equal(s.light_count, 1);
     assert_int_equal(s.lights[0].hidden, 1);
-    CHECK_NEAR(sqrt(2.0), s.lights[0].emitter.radius, 1e-5);
+    assert_int_equal(s.lights[0].glow, 1);
+    const lmp_light *light = &s.lights[0].emitter;
+    assert_int_equal(light->kind, LMP_LIGHT_RECTANGLE);
+    assert_int_equal(light->two_sided, 0);
+    CHECK_NEAR(1.0, light->half[0].x * light->half[1].y - light->half[0].y * light->half[1].x,
+               1e-6);
     for (int k = 0; k < 3; k++)
-        CHECK_NEAR(4.0 * PI * (2.0 + k),
-                   lmp_sphere_power_from_radiance((&s.lights[0].emitter.radiance.r)[k],
-                                                  s.lights[0].emitter.radius),
-                   1e-4);
+        CHECK_NEAR(2.0 + k, (&light->radiance.r)[k], 1e-6);
     scene_free(&s);
 }
 
-/* A triangle with everything this importer reads by itself. */
+/* A triangle with everything that this importer reads by itself. */
 static const char full_gltf[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,2,3]}],"
     "\"extensionsUsed\":[\"KHR_lights_punctual\",\"KHR_materials_emissive_strength\"],"
@@ -91,7 +93,7 @@ static void a_gltf_is_read_with_lights_cameras_and_mirrored_nodes(void **state) 
     folder_write_text("full.gltf", full_gltf);
     scene s = load(in_folder("full.gltf"));
     assert_int_equal(s.index_count, 3);
-    /* x is mirrored: -2 (1 + 0 … 1). The winding follows, so that the front still looks to +z. */
+    /* x is mirrored: -2 (1 + 0 … 1). The winding follows, so that the front still faces +z. */
     CHECK_NEAR(-4.0, s.minimum[0], 1e-6);
     CHECK_NEAR(-2.0, s.maximum[0], 1e-6);
     CHECK_NEAR(2.0, scene_area(&s), 1e-6);
@@ -116,12 +118,61 @@ static void a_gltf_is_read_with_lights_cameras_and_mirrored_nodes(void **state) 
                lmp_sphere_intensity_from_radiance(s.lights[0].emitter.radiance.g,
                                                   s.lights[0].emitter.radius),
                1e-4);
-    /* Double-sided: twice area times pi times radiance. */
-    CHECK_NEAR(
-        2.0 * 2.0 * PI * 4.0,
-        lmp_sphere_power_from_radiance(s.lights[1].emitter.radiance.r, s.lights[1].emitter.radius),
-        1e-3);
+    /* A double-sided lamp has twice area times pi times radiance. */
+    CHECK_NEAR(2.0 * 2.0 * PI * 4.0,
+               lmp_light_power_from_radiance(&s.lights[1].emitter, s.lights[1].emitter.radiance.r),
+               1e-3);
     scene_free(&s);
+}
+
+/* A double-sided cube of half edge 1, glowing with radiance 10: 12 triangles, of which `indices`
+ * are used. */
+static const char cube_gltf[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+    "\"nodes\":[{\"mesh\":0,\"scale\":[1,2,3]}],\"extensionsUsed\":[\"KHR_materials_emissive_"
+    "strength\"],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}]}]"
+    ","
+    "\"materials\":[{\"emissiveFactor\":[1,1,1],\"doubleSided\":true,\"extensions\":{"
+    "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":10}}}],\"accessors\":["
+    "{\"bufferView\":0,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\",\"min\":[-1,-1,-1],"
+    "\"max\":[1,1,1]},"
+    "{\"bufferView\":1,\"componentType\":5121,\"count\":%d,\"type\":\"SCALAR\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":96},{\"buffer\":0,\"byteOffset\":96,"
+    "\"byteLength\":%d}],"
+    "\"buffers\":[{\"byteLength\":132,\"uri\":\"cube.bin\"}]}";
+
+/* Returns the power of the lights that stand for the cube's first `indices`. */
+static double power_of_cube(int indices) {
+    char text[sizeof cube_gltf + 16];
+    snprintf(text, sizeof text, cube_gltf, indices, indices);
+    folder_write_text("cube.gltf", text);
+    scene s = load(in_folder("cube.gltf"));
+    double power = 0;
+    assert_int_equal(s.light_count, indices / 6);
+    for (size_t i = 0; i < s.light_count; i++) {
+        const lmp_light *light = &s.lights[i].emitter;
+        assert_int_equal(light->kind, LMP_LIGHT_RECTANGLE);
+        power += (double)lmp_light_power_from_radiance(light, light->radiance.r);
+    }
+    scene_free(&s);
+    return power;
+}
+
+/* What the inside of a body emits stays inside; of an open surface both sides give light. Faces of
+ * 4 x 6, 2 x 6 and 2 x 4, the last of which is left open. */
+static void a_closed_lamp_lights_by_its_outside_alone(void **state) {
+    (void)state;
+    static const unsigned char faces[36] = { 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+                                             2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6 };
+    unsigned char bytes[132];
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 3; k++)
+            memcpy(bytes + 12 * i + 4 * k, &(float) { i >> k & 1 ? 1.0f : -1.0f }, 4);
+    memcpy(bytes + 96, faces, sizeof faces);
+    folder_write("cube.bin", bytes, sizeof bytes);
+    CHECK_NEAR(1.0, power_of_cube(36) / (2 * (24 + 12 + 8) * PI * 10), 1e-6);
+    CHECK_NEAR(1.0, power_of_cube(30) / (2 * (2 * (24 + 12) + 8) * PI * 10), 1e-6);
 }
 
 /* --- the cache -------------------------------------------------------------------------------- */
@@ -152,7 +203,8 @@ static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
     assert_int_equal(first.block_size, second.block_size);
     assert_memory_equal(first.block, second.block, first.block_size);
     scene_free(&second);
-    /* A changed byte (none of the padding): the file is imported anew, and the cache mended. */
+    /* After a changed byte (outside the padding) the file is imported again, and the cache
+     * repaired. */
     find_cached(cached_path, sizeof cached_path);
     for (size_t at = 0; at < first.block_size; at += first.block_size / 6) {
         FILE *file = fopen(cached_path, "r+b");
@@ -171,7 +223,7 @@ static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
     scene truncated = load_cached(in_folder("square.obj"));
     assert_false(truncated.cached);
     scene_free(&truncated);
-    /* A file it refers to changes. */
+    /* A file that the scene refers to changes. */
     folder_write_text("square.mtl", "newmtl glow\nKd 0.5 0.75 0.125\n");
     scene changed = load_cached(in_folder("square.obj"));
     assert_false(changed.cached);
@@ -182,15 +234,15 @@ static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
 
 /* --- built in --------------------------------------------------------------------------------- */
 
-/* Right-handed: what was +z is +y, what was +y is -z. */
+/* Checks a right-handed rotation: what was +z is +y, what was +y is -z. */
 static void check_stands(const float lying[3], const float standing[3]) {
     assert_true(standing[0] == lying[0] && standing[1] == lying[2] && standing[2] == -lying[1]);
 }
 
-/* Triangles, cameras and lights alike, and the cache keeps both. */
+/* Triangles, cameras and lights are rotated alike, and the cache keeps both scenes. */
 static void a_scene_whose_z_is_up_stands(void **state) {
     (void)state;
-    cli_error error;
+    base_error error;
     folder_write_text("lying.gltf", full_gltf);
     for (int time = 0; time < 2; time++) {
         scene lying = load_cached(in_folder("lying.gltf")), standing;
@@ -278,7 +330,7 @@ static void the_atrium_is_the_same_for_a_seed_and_another_for_another(void **sta
 
 static void random_lights_are_the_same_everywhere(void **state) {
     (void)state;
-    /* x, y, radius and green, from the same formulas in another language */
+    /* x, y, radius and green, by the same formulas in another language */
     static const float golden[3][4] = {
         { -1.92313314f, 1.69322884f, 0.0358586756f, 96.0288481f },
         { -0.684237242f, -0.598574579f, 0.0385102674f, 105.217925f },
@@ -287,7 +339,7 @@ static void random_lights_are_the_same_everywhere(void **state) {
     folder_write_text("square.obj", square_obj);
     folder_write_text("square.mtl", "newmtl glow\n");
     scene s = load(in_folder("square.obj"));
-    cli_error error = { 0 };
+    base_error error = { 0 };
     scene_clear_lights(&s);
     assert_true(scene_add_random_lights(&s, 30, 7, &error));
     assert_int_equal(s.light_count, 30);
@@ -310,13 +362,14 @@ static void random_lights_are_the_same_everywhere(void **state) {
     scene_free(&s);
 }
 
-/* Their size is the scene's; a point has none, and the radiance of the smallest overflows. */
+/* Lights take the scene's size; a point has none, and the radiance of the smallest lights
+ * overflows. */
 static void a_point_has_no_room_for_random_lights(void **state) {
     (void)state;
     scene s = load("builtin:ball");
     static const float sides[] = { 0, 1e-25f };
     for (size_t i = 0; i < 2; i++) {
-        cli_error error;
+        base_error error;
         const size_t before = s.light_count;
         for (int k = 0; k < 3; k++) {
             s.minimum[k] = 0;
@@ -336,7 +389,7 @@ static void asked_lights_replace_the_scene_s_own_unless_kept(void **state) {
                       "{\"position\":[0,0,0],\"radius\":2,\"power\":100},"
                       "{\"position\":[0,0,0],\"radius\":2,\"intensity\":[100,0,1]}]}");
     scene s = load_cached("builtin:ball");
-    cli_error error = { 0 };
+    base_error error = { 0 };
     assert_int_equal(s.light_count, 10);
     scene_lights_options options = { .file = in_folder("lights.json"), .keep = true };
     assert_true(scene_apply_lights(&s, &options, &error));
@@ -368,6 +421,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_obj_is_read_with_its_materials),
         cmocka_unit_test(a_gltf_is_read_with_lights_cameras_and_mirrored_nodes),
+        cmocka_unit_test(a_closed_lamp_lights_by_its_outside_alone),
         cmocka_unit_test(a_cached_scene_is_the_same_and_damage_is_noticed),
         cmocka_unit_test(a_scene_whose_z_is_up_stands),
         cmocka_unit_test(built_in_scenes_are_valid),

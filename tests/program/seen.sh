@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# From where a model is seen and how bright, as render and reference choose it.
+# The camera and the exposure of a scene, as render and reference choose them.
 set -eu
 . tests/checks/common.sh
 cd "$WORK"
@@ -27,7 +27,7 @@ cat >lamps.json <<'END'
               { "position": [0, 1, 3], "radius": 0.3, "radiance": [10, 10, 10] } ] }
 END
 
-# which framing was found, and the other; not where one was chosen
+# The framing found is printed, and its alternative; not where one was chosen.
 "$PROGRAM" render box.obj $small -o found.png 2>err
 grep -q 'box.obj: no camera in it, seen from outside (--framing inside steps in)' err || fail "$(cat err)"
 for from in outside inside; do
@@ -46,7 +46,7 @@ status=0
 [ $status = 1 ] && grep -q 'camera: --camera and --framing exclude each other' err || fail "$status: $(cat err)"
 [ ! -e none.png ] || fail "an image beside an error"
 
-# exposure does not depend on shadows, nor on lamps that are seen
+# Exposure depends neither on shadows nor on lamps that are seen.
 for options in '' --shadows --hide-lights '--shadows --hide-lights'; do
     "$PROGRAM" render box.obj $small --lights lamps.json --environment studio --stats --repeat 1 $options -o lit.png 2>err |
         grep -e '"exposure"' -e '"average_radiance"' >exposure
@@ -55,7 +55,7 @@ for options in '' --shadows --hide-lights '--shadows --hide-lights'; do
     cmp -s exposure first || fail "$options: $(cat first exposure)"
 done
 
-# a light inside the box
+# A light stands inside the box.
 echo '{ "lights": [ { "position": [0, 1, 0], "radius": 0.1, "radiance": [10, 10, 10] } ] }' >inside.json
 "$PROGRAM" render box.obj $small --lights inside.json -o lit.png 2>err
 grep -q 'box.obj: light 0 is inside closed geometry: with shadows it lights nothing else' err || fail "$(cat err)"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Rays to lights: where they end, how they are spread, and what they bring. */
+/* Rays to lights: where they end, how they are distributed, and what they bring. */
 #include "app/render/shadow/source.h"
 #include "app/scene/vector.h"
 #include "tests/oracle/check.h"
@@ -9,12 +9,13 @@
 #include <string.h>
 
 static shadow_source source_of(const scene_light *light) {
+    static scene_emitter area;
     shadow_source sources[SHADOW_SOURCES(1)];
-    assert_int_equal(shadow_sources_make(light, 1, NULL, sources), 1);
+    assert_int_equal(shadow_sources_make(light, 1, NULL, &area, sources), 1);
     return sources[0];
 }
 
-/* What the source brings to the origin, for each pair of numbers. */
+/* Draws what the source brings to the origin, for each pair of numbers. */
 static void draw(const shadow_source *source, const shadow_lanes u, const shadow_lanes v,
                  shadow_samples *samples) {
     static const shadow_vectors origins = { { { 0 } } };
@@ -28,7 +29,8 @@ static double dot(lmp_vec3 a, lmp_vec3 b) {
     return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
 }
 
-/* Of a sphere as a point sees it, from outside its near side and from inside its far one. */
+/* Rays end on a sphere as a point sees it: from outside on its near side, from inside on its far
+ * side. */
 static void rays_to_a_sphere_end_on_it(void **state) {
     (void)state;
     for (int i = 0; i < 400; i++) {
@@ -59,22 +61,22 @@ static void rays_to_a_sphere_end_on_it(void **state) {
     }
 }
 
-/* From the edge of half the sphere of directions they are sine and cosine of the part of a circle,
- * within the 4e-7 of their series and a rounding. */
+/* From the edge of half the sphere of directions on, they are sine and cosine of a fraction of a
+ * circle, within the 4e-7 of their series and a rounding. */
 static void rays_go_around_the_axis_by_parts_of_a_circle(void **state) {
     (void)state;
-    const scene_light half = { .emitter = { .kind = LMP_LIGHT_CAP,
-                                            .direction = { 0, 0, 1 },
-                                            .angle = (float)acos(0),
-                                            .radiance = { 1, 1, 1 } } };
-    const shadow_source source = source_of(&half);
+    const scene_light hemisphere = { .emitter = { .kind = LMP_LIGHT_CAP,
+                                                  .direction = { 0, 0, 1 },
+                                                  .angle = (float)acos(0),
+                                                  .radiance = { 1, 1, 1 } } };
+    const shadow_source source = source_of(&hemisphere);
     shadow_lanes u, v;
     shadow_samples samples;
     for (int i = 0; i < 4096; i += SHADOW_LANES - 1) {
         for (int k = 0; k < SHADOW_LANES; k++) {
             u[k] = 1;
             v[k] = k > 0 ? (float)(i + k - 1) / 4096
-                         : 0; /* the first one is where the circle begins */
+                         : 0; /* the first ray is at the beginning of the circle */
         }
         draw(&source, u, v, &samples);
         const lmp_vec3 x = shadow_lane(&samples.direction, 0), y = { -x.y, x.x, 0 };
@@ -87,7 +89,7 @@ static void rays_go_around_the_axis_by_parts_of_a_circle(void **state) {
     }
 }
 
-/* The mean of what rays bring, by the cosine with the light's middle, is the irradiance there: pi L
+/* The mean of what rays bring, with the cosine of the light's center, is the irradiance there: pi L
  * sin²a of a sphere and of a cap, I/d² of a point, E of a direction, pi L of a sky. */
 static void rays_bring_the_irradiance(void **state) {
     (void)state;
@@ -140,7 +142,7 @@ static void rays_bring_the_irradiance(void **state) {
     }
 }
 
-/* Sources of every kind beside each other bring what each brings alone. */
+/* Sources of every kind side by side bring what each brings alone. */
 static void neighbors_do_not_mix(void **state) {
     (void)state;
     const scene_light lights[] = {
@@ -196,7 +198,7 @@ static void neighbors_do_not_mix(void **state) {
 
 static const lmp_vec3 stands = { 3, -2, 5 };
 
-/* One point in all lanes: up is z, and the eye is reflected at 50 degrees. */
+/* Fills all lanes with one point: up is z, and the eye is reflected at 50 degrees. */
 static void fill_lanes(shadow_points *points, float albedo, float shine, float coat) {
     const lmp_vec3 up = { 0, 0, 1 };
     const lmp_vec3 mirror = { (float)sin(50 * acos(-1) / 180), 0, (float)cos(50 * acos(-1) / 180) };
@@ -217,8 +219,8 @@ static void fill_lanes(shadow_points *points, float albedo, float shine, float c
     }
 }
 
-/* Rays are shared out by what lights are expected to bring: the cosine of small ones, and a lobe,
- * of the surface as of its coat, that falls off with the angle from the mirror direction by its
+/* Rays are distributed by what lights are expected to bring: the cosine for small ones, and a lobe,
+ * of the surface and of its coat, that falls off with the angle from the mirror direction by its
  * width. */
 static void small_lights_weigh_what_is_reflected_of_them(void **state) {
     (void)state;
@@ -259,7 +261,7 @@ static void small_lights_weigh_what_is_reflected_of_them(void **state) {
     }
 }
 
-/* The octant of a ball as one triangle, whose normals are the ball's or point into it. */
+/* Makes the octant of a ball as one triangle, whose normals are the ball's or point into it. */
 static void bend_triangle(float side, scene *world) {
     static const uint32_t indices[3] = { 0, 1, 2 };
     static const scene_mesh mesh = { .index_count = 3 };
@@ -286,7 +288,7 @@ static void bend_triangle(float side, scene *world) {
 static const scene_camera camera = { .eye = { 4, 4, 4 } };
 static const lmp_shade_settings shading = { .bands = 20, .window = LMP_WINDOW_NONE };
 
-/* Points of the bent triangle by their weights, seen from outside, all of that material. */
+/* Sets points of the bent triangle by their weights, seen from outside, all of one material. */
 static void set_points(const scene *world, lmp_vec3 at[SHADOW_LANES], render_tile *row,
                        const lmp_material *material, shadow_points *points) {
     trace_bvh *bvh = trace_create(world);
@@ -310,7 +312,7 @@ static void set_points(const scene *world, lmp_vec3 at[SHADOW_LANES], render_til
         row->material[i] = *material;
     }
     shadow_points_set(&view, row, NULL, pixels, SHADOW_LANES, points);
-    points->settings = &shading; /* the view ends here */
+    points->settings = &shading; /* the view ends at the point */
     trace_destroy(bvh);
 }
 
@@ -324,8 +326,8 @@ static void pick(lmp_vec3 at[SHADOW_LANES]) {
 
 static const lmp_material matte = { .roughness = 1, .base_color = { 1, 1, 1 } };
 
-/* From triangles whose corners and normals are those of a ball, rays start on the ball, but for
- * what a surface of second degree cannot follow; from those that are hollow, on the triangle. */
+/* Where corners and normals are those of a ball, rays start on the ball, within what a surface of
+ * second degree can follow; on hollow triangles they start on the triangle. */
 static void rays_leave_the_surface_that_normals_bend(void **state) {
     render_tile *row = *state;
     for (float side = 1; side >= -1; side -= 2) {
@@ -347,8 +349,8 @@ static void rays_leave_the_surface_that_normals_bend(void **state) {
     }
 }
 
-/* What the coat's lobe costs is spent where some point has one. Straight toward the eye it reflects
- * 4 % of the light, of its weight. */
+/* The cost of the coat's lobe is paid where some point has a coat. Straight toward the eye it
+ * reflects 4 % of the light, times its weight. */
 static void points_are_coated_where_their_material_is(void **state) {
     render_tile *row = *state;
     scene world;
@@ -367,8 +369,8 @@ static void points_are_coated_where_their_material_is(void **state) {
         CHECK_WITHIN(fabsf(points.coat[i] - 0.02f), 1e-5f);
 }
 
-/* Lobes of 20 bands, of white light: each channel as much as it reflects by its diffuse
- * lobe, pi times less than the cosine but for what the bands leave out, and nothing from below. */
+/* Lobes of 20 bands under white light: each channel brings what its diffuse lobe reflects, pi times
+ * less than the cosine except for what the bands leave out, and nothing from below. */
 static void channels_of_series_reflect_what_is_theirs(void **state) {
     render_tile *row = *state;
     scene world;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Rays that are ordered by their lights and traced together find what each finds alone. */
+/* Rays that are sorted by their lights and traced together find what each finds alone. */
 #include "app/render/shadow/batch.h"
 
 #include "tests/oracle/check.h"
@@ -9,7 +9,7 @@
 
 enum { LIGHTS_MAX = 70000 };
 
-/* Of the atrium, rays from about its middle toward one of so many lights. */
+/* Aims rays from about the middle of the atrium toward one of some lights each. */
 static void aim(shadow_batch *b, int lights) {
     b->count = 1 + (int)(check_random() * SHADOW_SHOTS);
     for (int k = 0; k < b->count; k++)
@@ -44,7 +44,7 @@ static void order_changes_no_distance(void **state) {
     (void)state;
     static const int lights[] = { 1, 3, 30, 256, 257, LIGHTS_MAX };
     static shadow_batch batch;
-    cli_error error;
+    base_error error;
     scene world;
     size_t hidden = 0;
     if (!scene_load("builtin:atrium", &(scene_options) { .no_cache = true }, &world, &error))

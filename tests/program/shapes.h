@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* shapes.h - things and places made of a few triangles, for what judges shapes. */
+/* shapes.h - bodies and buildings made of a few triangles, for tests that judge shapes. */
 #ifndef LAMPION_PROGRAM_SHAPES_H
 #define LAMPION_PROGRAM_SHAPES_H
 
@@ -11,7 +11,7 @@
 
 enum { SHAPE_CORNERS = 1 << 17 };
 
-/* A scene of one mesh, and what it is made of. */
+/* A scene of one mesh, with the arrays that it is made of. */
 typedef struct shape {
     scene_vertex vertices[SHAPE_CORNERS];
     uint32_t indices[SHAPE_CORNERS];
@@ -34,13 +34,14 @@ static inline void shape_triangle(shape *s, lmp_vec3 a, lmp_vec3 b, lmp_vec3 c) 
     }
 }
 
-/* Counter-clockwise to who sees its front; `flip` shows it to the other side. */
+/* Adds a quadrilateral, counter-clockwise as seen from its front; `flip` shows it to the other
+ * side. */
 static inline void shape_quad(shape *s, const lmp_vec3 p[4], bool flip) {
     shape_triangle(s, p[0], p[flip ? 2 : 1], p[flip ? 1 : 2]);
     shape_triangle(s, p[0], p[flip ? 3 : 2], p[flip ? 2 : 3]);
 }
 
-/* A box without the sides in the mask: bit 2 k + (1: the far side of axis k). */
+/* Adds a box without the sides in the mask: bit 2 k + (1: the far side of axis k). */
 static inline void shape_box(shape *s, lmp_vec3 low, lmp_vec3 high, bool inwards, int without) {
     const float p[2][3] = { { low.x, low.y, low.z }, { high.x, high.y, high.z } };
     for (int side = 0; side < 6; side++) {
@@ -58,9 +59,9 @@ static inline void shape_box(shape *s, lmp_vec3 low, lmp_vec3 high, bool inwards
     }
 }
 
-/* Around an axis y through `at`: the profile's points (radius, height) in order, from which what is
- * on the right, seen along it with y up and the axis at the left, is outside; `from` to `to` of the
- * 64 parts of a circle. */
+/* Revolves a profile around an axis y through `at`: its points (radius, height) in order have the
+ * outside on their right, seen with y up and the axis at the left; it covers `from` to `to` of 64
+ * parts of a circle. */
 static inline void shape_revolve(shape *s, lmp_vec3 at, const float (*profile)[2], int count,
                                  int from, int to) {
     enum { PARTS = 64 };
@@ -80,7 +81,7 @@ static inline void shape_revolve(shape *s, lmp_vec3 at, const float (*profile)[2
     }
 }
 
-/* The plane's height at x, z, each -1 … 1, times `size`. */
+/* Adds ground with a height at x, z, each -1 … 1, times `size`. */
 static inline void shape_ground(shape *s, float size, float height(float x, float z)) {
     enum { STEPS = 48 };
     for (int i = 0; i < STEPS * STEPS; i++) {
@@ -94,7 +95,7 @@ static inline void shape_ground(shape *s, float size, float height(float x, floa
     }
 }
 
-/* What was up is in front then. */
+/* Lays the shape down: what was up is then in front. */
 static inline void shape_lie(shape *s) {
     for (uint32_t i = 0; i < s->count; i++) {
         float *p = s->vertices[i].position;
@@ -104,7 +105,16 @@ static inline void shape_lie(shape *s) {
     }
 }
 
-/* The arrays stay the shape's. */
+/* Turns the shape inside out: what showed its front shows its back. */
+static inline void shape_invert(shape *s) {
+    for (uint32_t i = 0; i + 2 < s->count; i += 3) {
+        const uint32_t second = s->indices[i + 1];
+        s->indices[i + 1] = s->indices[i + 2];
+        s->indices[i + 2] = second;
+    }
+}
+
+/* Returns a scene that uses the shape's arrays, which the shape keeps. */
 static inline scene shape_scene(shape *s) {
     s->mesh = (scene_mesh) { .index_count = s->count };
     s->instance = scene_instance_identity(0);

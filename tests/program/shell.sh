@@ -4,13 +4,13 @@
 set -eu
 . tests/checks/common.sh
 
-# absent TOOL: says so, once
+# absent TOOL: reports once that it is missing.
 absent() {
     command -v "$1" >/dev/null && return 1
     echo "skipped: $1 is not installed"
 }
 
-# clean PAGE: groff finds nothing to warn of
+# clean PAGE: groff must not warn.
 clean() {
     groff -man -Tutf8 -Kutf8 -ww -z "$1" >"$WORK/log" 2>&1 && [ ! -s "$WORK/log" ]
 }
@@ -49,14 +49,14 @@ printf 'newmtl floor\nnewmtl flowers\nnewmtl wall\n' >"$WORK/rooms/room.mtl"
 printf 'mtllib room.mtl\nusemtl floor\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl flowers\nf 1 3 2\n' >"$WORK/rooms/room.obj"
 mkdir "$WORK/files/folder"
 
-# bash: `completes LINE WORD…` for the words that are offered
+# In bash `completes LINE WORD…` checks the words that are offered.
 "$PROGRAM" completion bash >"$WORK/bash"
 bash -n "$WORK/bash" || fail "bash: syntax"
 completes_bash() {
     (cd "$WORK/files" && bash -c 'source ../bash; COMP_LINE=$1 COMP_POINT=${#1}; _lampion; printf "%s\n" "${COMPREPLY[@]}"' \
         - "$1" | sort | paste -sd ' ')
 }
-# fish: the words alone, without what they mean
+# In fish only the words count, without their descriptions.
 "$PROGRAM" completion fish >"$WORK/fish"
 completes_fish() {
     (cd "$WORK/files" && HOME=$WORK fish --no-config -c 'source ../fish; complete -C $argv[1]' "$1" | cut -f 1 | sort | paste -sd ' ')
@@ -96,11 +96,11 @@ completes 'lampion render x.gltf --material floor=sgd:two-layer-g' 'two-layer-go
 completes 'lampion render x.gltf --material flo' ''
 completes 'lampion render --window=ha' 'hanning' # as readline wants it, what follows = or : alone
 completes 'lampion render builtin:at' 'atrium'
-completes 'lampion render ' 'builtin:atrium builtin:ball builtin:balls folder scene.gltf with\ blank.png'
+completes 'lampion render ' 'builtin:atrium builtin:ball builtin:balls builtin:room folder scene.gltf with\ blank.png'
 completes 'lampion paper -o ' 'folder'
 completes 'lampion paper --data ' 'folder'
 completes 'lampion brdf info sce' 'scene.gltf'
-# a name is no command, whatever it is and begins with: quoted here, or by readline where that does it well
+# A name is never run as a command, whatever it contains: it is quoted here, or by readline where that does it well.
 hostile='hole$(touch pwned).gltf' quoted='hole\$\(touch\ pwned\).gltf'
 touch "$WORK/files/builtin:$hostile" "$WORK/files/sgd:$hostile" "$WORK/files/$hostile" "$WORK/files/builtin:ball;x"
 completes 'lampion info builtin:ho' "$quoted"

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* A screenshot repeated by the program asks for no more than its user allows, however small it is
- * itself, and opens no file but those that came with it. */
+/* A screenshot repeated by the program needs no more than its user allows, however small it is
+ * itself, and opens no file except those that came with it. */
 #include "app/image/png.h"
 #include "tests/program/refused.h"
 #include "tests/program/view.h"
 
-#include "app/file/file.h"
+#include "app/base/error.h"
+#include "app/base/file.h"
+#include "app/base/file_json.h"
 
 #include <errno.h>
 #include <signal.h>
 #include <sys/wait.h>
 
-/* An image of one pixel whose settings ask for so many. */
+/* Writes an image of one pixel whose settings ask for a given size. */
 static void write_shot(const char *name, int width, int height) {
     static const unsigned char pixel[3];
-    cli_error error;
+    base_error error;
     state.now.width = width;
     state.now.height = height;
     state.now.samples = 1;
@@ -40,7 +42,7 @@ static int repeat(const char *name, const char *pixels_max) {
     return repeat_with(name, pixels_max ? "--max-pixels" : NULL, pixels_max);
 }
 
-/* The same in the viewer, which without a display goes as far as its window. */
+/* Runs the viewer with the same words, which without a display gets as far as its window. */
 static int look_with(const char *name, const char *word, const char *other) {
     char shot[64];
     snprintf(shot, sizeof shot, "%s/%s", folder, name);
@@ -60,7 +62,7 @@ static void large_ones_are_refused_unless_allowed(void **unused) {
     assert_int_equal(access(in_folder("out.png"), F_OK), 0);
 }
 
-/* Before a window is opened: without a display it is known, too. */
+/* The viewer refuses before it opens a window: without a display that shows, too. */
 static void the_viewer_refuses_the_same(void **unused) {
     (void)unused;
     write_shot("large.png", 8192, 8192);
@@ -69,8 +71,21 @@ static void the_viewer_refuses_the_same(void **unused) {
     assert_one_line(look_with("large.png", "--max-pixels", "67108864"), "large.png", "display");
 }
 
-/* A file that is standard input, by its other names, as the screenshot's scene or a material of it.
- */
+/* The tables of both sides are measured before one is made, which the cache would show. */
+static void tables_too_large_for_a_gpu_are_not_made(void **unused) {
+    (void)unused;
+    char command[600];
+    state.now.split = GPU_SPLIT_DIVIDED;
+    state.now.shading[1] = (view_shading) { METHOD_COEFFICIENTS, 20, LMP_WINDOW_NONE };
+    assert_true(view_set_material(&state.now, "test_material", "ggx:0.8x0.7"));
+    write_shot("tables.png", 8, 8);
+    assert_one_line(repeat("tables.png", NULL), "two sides",
+                    "the tables of the materials are too large (fewer --bands)");
+    snprintf(command, sizeof command, "find '%s' -name '*.lmpt' | grep -q .", in_folder("cache"));
+    assert_int_not_equal(system(command), 0);
+}
+
+/* Standard input by its other names is refused as the screenshot's scene or a material of it. */
 static void none_reads_standard_input(void **unused) {
     (void)unused;
     static const char *const names[] = { "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0",
@@ -96,9 +111,9 @@ static void none_reads_standard_input(void **unused) {
 
 #define MATERIAL_TEXT(name) "test_material=" name
 
-/* The parts of a screenshot that are names of files, with what stands before and behind one. */
+/* The parts of a screenshot that are names of files, with the text before and after one. */
 typedef struct part {
-    const char *name; /* in messages */
+    const char *name; /* name in messages */
     const char *beginning, *end;
 } part;
 static const part parts[] = { { "scene", "", "" },
@@ -106,7 +121,7 @@ static const part parts[] = { { "scene", "", "" },
                               { "material", "", "" },
                               { "material", "sgd:", ":nickel" } };
 
-/* A screenshot in the folder `shots` with a name in one of its parts. */
+/* Writes a screenshot in the folder `shots` with a name in one of its parts. */
 static void write_part(const part *p, const char *file) {
     char text[512];
     snprintf(text, sizeof text, "%s%s%s", p->beginning, file, p->end);
@@ -117,7 +132,8 @@ static void write_part(const part *p, const char *file) {
     write_shot("shots/shot.png", 8, 8);
 }
 
-/* The same file in the folder, below it and in another, and links that stay and that lead out. */
+/* Writes the same file in the folder, below it and in another, and links that stay inside and that
+ * lead out. */
 static void write_files(void) {
     static const char *const folders[] = { "shots", "shots/below", "shots2" };
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
@@ -139,7 +155,7 @@ static void write_files(void) {
     assert_int_equal(chdir(in_folder("shots")), 0);
 }
 
-/* Whether or not there is such a file, and before any of it is read. */
+/* Names are refused whether or not there is such a file, and before any of it is read. */
 static void names_that_lead_out_are_refused(void **unused) {
     (void)unused;
     char absolute[64];
@@ -175,7 +191,7 @@ static void names_that_lead_out_are_refused(void **unused) {
         }
 }
 
-/* Then it is the reader of such files that has something to say, if there is anything to say. */
+/* Names that stay inside reach the reader of such files, which reports errors if there are any. */
 static void names_that_stay_are_opened(void **unused) {
     (void)unused;
     char absolute[64], alias[64];
@@ -197,7 +213,7 @@ static void names_that_stay_are_opened(void **unused) {
         }
 }
 
-/* As a file named through a link to the folder, from another folder. */
+/* The file is named through a link to the folder, from another folder. */
 static void the_folder_is_where_the_file_lies(void **unused) {
     (void)unused;
     write_files();
@@ -205,7 +221,7 @@ static void the_folder_is_where_the_file_lies(void **unused) {
     assert_int_equal(repeat("alias/shot.png", NULL), 0);
     assert_int_equal(chdir(in_folder("shots2")), 0);
     assert_int_equal(repeat("shots/shot.png", NULL), 0);
-    write_part(&parts[0], "room.obj"); /* of the current folder, which is not that of the file */
+    write_part(&parts[0], "room.obj"); /* in the current folder, which is not that of the file */
     assert_one_line(repeat("shots/shot.png", NULL), "room.obj", "outside its folder");
     unlink(in_folder("link.png"));
     assert_int_equal(symlink("shots/shot.png", in_folder("link.png")), 0);
@@ -231,7 +247,7 @@ static void a_user_may_name_and_allow_any(void **unused) {
     assert_one_line(look_with("shots/shot.png", "builtin:ball", NULL), name, "outside its folder");
 }
 
-/* What is built in or a formula is no file. */
+/* Built-in names and formulas are not files. */
 static void what_is_no_file_is_not_looked_for(void **unused) {
     (void)unused;
     static const char *const materials[] = { "sgd:nickel", "lambert:0.5", "phong:3", "ggx:0.3:0.9",
@@ -259,7 +275,7 @@ static pid_t exchange(const char *a, const char *b) {
 
 static void write_panorama(const char *name, float value) {
     image pixels;
-    cli_error error;
+    base_error error;
     assert_true(image_create(&pixels, 8, 4, &error));
     for (int i = 0; i < 3 * 8 * 4; i++)
         pixels.rgb[i] = value;
@@ -267,9 +283,9 @@ static void write_panorama(const char *name, float value) {
     image_free(&pixels);
 }
 
-/* Whether the part that a screenshot names was opened, and whether what it is lies outside. */
+/* Opens the part that a screenshot names, and finds whether what was opened lies outside. */
 static bool open_part(const view_settings *s, int which, bool *outside) {
-    cli_error error;
+    base_error error;
     bool ok = false;
     if (which == 0) {
         scene read;
@@ -295,12 +311,12 @@ static bool open_part(const view_settings *s, int which, bool *outside) {
     return ok;
 }
 
-/* A folder beside the screenshot, and a link that leads out, exchanged all the while: whatever the
- * name meant when it was checked, what is read lies inside. */
+/* A folder beside the screenshot and a link that leads out are exchanged all the while: whatever
+ * the name meant when it was checked, what is read lies inside. */
 static void no_swapped_link_leads_out(void **unused) {
     (void)unused;
     static const char *const names[] = { "swap/room.obj", "swap/sky.exr", "swap/dull.bsdf" };
-    const int times = check_count(150, 600);
+    const int times = check_count(40, 600);
     char inside[64], link[64], shot[64];
     write_files();
     mkdir(in_folder("shots/swap"), 0700);
@@ -321,7 +337,7 @@ static void no_swapped_link_leads_out(void **unused) {
         const pid_t child = exchange(inside, link);
         for (int i = 0; i < times; i++) {
             static view_settings read;
-            cli_error error;
+            base_error error;
             bool led_out = false;
             if (!view_read_shot(shot, &(view_shot_options) { .pixels_max = 64 }, &read, &error) ||
                 !open_part(&read, which, &led_out))
@@ -339,14 +355,12 @@ static void no_swapped_link_leads_out(void **unused) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = { TEST(large_ones_are_refused_unless_allowed),
-                                        TEST(the_viewer_refuses_the_same),
-                                        TEST(none_reads_standard_input),
-                                        TEST(names_that_lead_out_are_refused),
-                                        TEST(names_that_stay_are_opened),
-                                        TEST(the_folder_is_where_the_file_lies),
-                                        TEST(a_user_may_name_and_allow_any),
-                                        TEST(what_is_no_file_is_not_looked_for),
-                                        TEST(no_swapped_link_leads_out) };
+    const struct CMUnitTest tests[] = {
+        TEST(large_ones_are_refused_unless_allowed),   TEST(the_viewer_refuses_the_same),
+        TEST(tables_too_large_for_a_gpu_are_not_made), TEST(none_reads_standard_input),
+        TEST(names_that_lead_out_are_refused),         TEST(names_that_stay_are_opened),
+        TEST(the_folder_is_where_the_file_lies),       TEST(a_user_may_name_and_allow_any),
+        TEST(what_is_no_file_is_not_looked_for),       TEST(no_swapped_link_leads_out)
+    };
     return cmocka_run_group_tests(tests, make_refused_folder, folder_remove);
 }

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* Bodies show their outside, whatever the order of their corners, in formats that do not tell. */
+/* Bodies show their outside, whatever the order of their corners, in formats that do not state it.
+ */
 #include "app/scene/scene.h"
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
 
-/* Faces of a box by its corners, the first lowest in x, y and z: counter-clockwise from outside. */
+/* Faces of a box by its corners, the first being lowest in x, y and z: counter-clockwise from
+ * outside. */
 static const int faces[6][4] = { { 1, 2, 4, 3 }, { 5, 7, 8, 6 }, { 1, 5, 6, 2 },
                                  { 3, 4, 8, 7 }, { 1, 3, 7, 5 }, { 2, 6, 8, 4 } };
 
 typedef struct box {
     float low, high;
     bool clockwise;
-    int faces;       /* the last ones may be missing */
-    int parts;       /* materials that the faces take in turn */
-    const char *tag; /* what comes before it: "o name\n" or nothing */
+    int faces;       /* the number of faces, of which the last may be missing */
+    int parts;       /* number of materials that the faces take in turn */
+    const char *tag; /* text before the box: "o name " or nothing */
 } box;
 
 static void add_box(char *text, size_t size, const box *b, int number) {
@@ -41,9 +43,9 @@ static scene load_boxes(const box *boxes, int count) {
     return load(in_folder("boxes.obj"));
 }
 
-/* 1 where every triangle of a box, whose middle is given, and its normals look away from it; -1
- * where all look towards it; 0 otherwise. The box is told by how far its corners are. */
-static int outwards(const scene *s, float middle, float half) {
+/* Returns 1 where every triangle and normal of a box with a given middle faces away from it, -1
+ * where all face it, and 0 otherwise. The box is recognized by the distance of its corners. */
+static int outwards(const scene *s, float middle, float half_size) {
     size_t out = 0, in = 0;
     for (size_t i = 0; i < s->index_count; i += 3) {
         const scene_vertex *v[3];
@@ -60,7 +62,7 @@ static int outwards(const scene *s, float middle, float half) {
                                      (v[1]->position[e] - v[0]->position[e]) *
                                          (v[2]->position[d] - v[0]->position[d]));
         }
-        if (fabs(corner - (double)half) > 1e-3)
+        if (fabs(corner - (double)half_size) > 1e-3)
             continue;
         out += along > 0 && wound > 0;
         in += along < 0 && wound < 0;
@@ -83,7 +85,7 @@ static void a_body_of_several_materials_shows_its_outside(void **state) {
         }
 }
 
-/* One is mirrored, as a part that somebody copied to the other side. */
+/* One body is mirrored, like a part that somebody copied to the other side. */
 static void each_body_is_turned_by_itself(void **state) {
     (void)state;
     const box boxes[] = { { -3, -2, false, 6, 1, "" }, { 2, 3, true, 6, 2, "" } };
@@ -93,7 +95,8 @@ static void each_body_is_turned_by_itself(void **state) {
     scene_free(&s);
 }
 
-/* Walls around what is not clockwise are those of a room; around what is, all are. */
+/* Clockwise walls around a body that is not clockwise are those of a room; around a clockwise body,
+ * the whole file is clockwise. */
 static void what_a_body_holds_tells_whether_it_is_a_room(void **state) {
     (void)state;
     for (int clockwise = 0; clockwise < 2; clockwise++) {
@@ -115,7 +118,7 @@ static void a_hollow_stays_hollow(void **state) {
     scene_free(&s);
 }
 
-/* A box without a lid goes as the bodies beside it do; without any, it is as it is. */
+/* A box without a lid follows the bodies beside it; without any, it is kept as it is. */
 static void what_is_open_goes_with_the_bodies(void **state) {
     (void)state;
     const box boxes[] = { { -4, -2, true, 5, 1, "" }, { 2, 3, true, 6, 1, "" } };
@@ -150,7 +153,7 @@ static void write_stl(const char *name, bool clockwise, int normal) {
     folder_write_text(name, text);
 }
 
-/* Normals of an STL follow from its corners, if they are right; some are not. */
+/* Normals of an STL follow from its corners if they are right; some are not. */
 static void an_stl_is_turned_whatever_its_normals_say(void **state) {
     (void)state;
     for (int clockwise = 0; clockwise < 2; clockwise++)

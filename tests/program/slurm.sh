@@ -21,7 +21,7 @@ own_scene scene.gltf
 PATH=$BUILD:$PATH
 export PATH SLURM_CONF="$own/slurm.conf" XDG_CACHE_HOME="$WORK/cache"
 
-# script NAME TEXT: the job of the page that has the text
+# script NAME TEXT: writes the job of the page that contains TEXT.
 script() {
     printf '%s\n' "$blocks" | awk -v text="$2" '
         /^#!\/bin\/sh/ { block = ""; inside = 1 }

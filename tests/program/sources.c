@@ -3,7 +3,7 @@
  * meant, and each read and counted once. */
 #include "app/scene/sources.h"
 
-#include "app/sandbox/sandbox.h"
+#include "app/base/sandbox.h"
 #include "app/scene/scene.h"
 #include "tests/program/folder.h"
 
@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SANITIZED 1 /* the address space is then not limited */
+#define SANITIZED 1 /* where the address space is not limited */
 #else
 #define SANITIZED 0
 #endif
@@ -51,7 +51,7 @@ static void no_link_leads_outside_while_names_change(void **state) {
     snprintf(link, sizeof link, "%s/link", inner);
     const pid_t child = exchange(file, link);
     for (int i = 0; i < times; i++) {
-        cli_error error;
+        base_error error;
         char text[7] = "";
         const int fd = sources_open(&set, "page", &error);
         if (fd < 0)
@@ -77,7 +77,7 @@ static void a_link_tells_nothing_of_what_lies_outside(void **state) {
     };
     static const char *const names[] = { "link", "LINK", "link/below" };
     source_set set = { .subject = "scene", .folder = inner };
-    cli_error error;
+    base_error error;
     folder_write_text("kept", "kept");
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         char expected[128];
@@ -102,7 +102,7 @@ static void a_name_is_decoded_once(void **state) {
     (void)state;
     source_set set = { .subject = "scene", .folder = inner };
     const source *found;
-    cli_error error;
+    base_error error;
     folder_write_text(in_scene("a b"), "with a space");
     folder_write_text(in_scene("a%20b"), "with an escape");
     assert_true(sources_read(&set, "a%20b", &found, &error));
@@ -121,7 +121,7 @@ static void a_cached_scene_knows_its_files_by_the_same_names(void **state) {
     (void)state;
     static const float corners[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
     char path[128];
-    cli_error error;
+    base_error error;
     folder_write(in_scene("my%20corners.bin"), corners, sizeof corners);
     folder_write_text(
         in_scene("scene.gltf"),
@@ -144,12 +144,13 @@ static void a_cached_scene_knows_its_files_by_the_same_names(void **state) {
 
 enum { LARGE = 64 << 20 };
 
-static int open_in_scene(void *context, const char *name, cli_error *error) {
+static int open_in_scene(void *context, const char *name, base_error *error) {
     return sources_open(context, name, error);
 }
 
-/* Reads one file by many names; then more memory than the one file allows must be refused. */
-static bool read_by_many_names(void *context, int output, cli_error *error) {
+/* Reads one file by many names; then asking for more memory than the one file allows must be
+ * refused. */
+static bool read_by_many_names(void *context, int output, base_error *error) {
     static const char *const names[] = {
         "large", "./large", ".//./large", "LARGE", "link", "lArGe"
     };
@@ -161,12 +162,12 @@ static bool read_by_many_names(void *context, int output, cli_error *error) {
             return false;
         first = first ? first : found;
         if (found->data != first->data || found->size != LARGE)
-            return cli_fail(error, names[i], "is read again");
+            return base_fail(error, names[i], "is read again");
     }
     void *const memory =
         mmap(NULL, (size_t)8 << 30, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory != MAP_FAILED && !SANITIZED)
-        return cli_fail(error, NULL, "its limits grew with each name");
+        return base_fail(error, NULL, "its limits grew with each name");
     return write(output, "once", 4) == 4;
 }
 
@@ -175,7 +176,7 @@ static void a_file_by_many_names_is_read_and_counted_once(void **state) {
     source_set set = { .subject = "scene", .folder = inner };
     void *block;
     size_t size;
-    cli_error error;
+    base_error error;
     folder_write_text(in_scene("large"), "");
     assert_int_equal(truncate(in_folder(in_scene("large")), LARGE), 0);
     assert_int_equal(symlink("large", in_folder(in_scene("link"))), 0);
@@ -187,14 +188,14 @@ static void a_file_by_many_names_is_read_and_counted_once(void **state) {
     munmap(block, size);
 }
 
-/* More often than files may be opened: what is not there is asked for once. */
+/* There are more names than files may be opened: an absent file is looked up once. */
 static void an_absent_file_may_be_named_by_many_materials(void **state) {
     (void)state;
     enum { MATERIALS = 4200, LINE = 64 };
     static char materials[MATERIALS * LINE];
     char path[128];
     size_t used = 0;
-    cli_error error;
+    base_error error;
     scene world;
     for (int i = 0; i < MATERIALS; i++)
         used += (size_t)snprintf(materials + used, LINE, "newmtl m%d\nmap_Kd gone.png\n", i);
@@ -208,11 +209,11 @@ static void an_absent_file_may_be_named_by_many_materials(void **state) {
     scene_free(&world);
 }
 
-/* Each absent name is looked for among all of a folder's, but not for ever. */
+/* Each absent name is looked up among all names of a folder, but not for ever. */
 static void absent_names_are_looked_for_in_bounded_time(void **state) {
     (void)state;
     source_set set = { .subject = "scene", .folder = inner, .listed = (size_t)1 << 40 };
-    cli_error error;
+    base_error error;
     folder_write_text(in_scene("Page"), "a page");
     assert_int_equal(sources_open(&set, "page", &error), -1);
     set.listed = 0;

@@ -32,7 +32,7 @@ says_why() {
     [ "$(grep -c . err)" = 1 ] && grep -q '^lampion: \|while loading shared libraries: \|^libgomp: \|^out of dynamic memory in yy_' err
 }
 
-# sweep COMMAND…
+# sweep COMMAND…: runs the command under every limit.
 sweep() {
     run "$@"
     [ "$status" = 0 ] || fail "$*: $(cat err)"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* examples/rotate_splats.c on a file of splats, judged by the formulas of Kerbl et al. 2023
- * ("3D Gaussian Splatting", computeColorFromSH of their rasterizer), written here anew. */
+/* examples/rotate_splats.c on a file of splats, checked by the formulas of Kerbl et al. 2023 ("3D
+ * Gaussian Splatting", computeColorFromSH of their rasterizer), written again here. */
 #include "tests/program/folder.h"
 
 #include <math.h>
@@ -85,7 +85,7 @@ static int make_splats(void **state) {
 
 /* --- the judges ------------------------------------------------------------------------------- */
 
-/* The color of a channel seen along unit d, as the rasterizer sums it. */
+/* Returns the color of a channel seen along unit d, as the rasterizer sums it. */
 static double color_seen(const float *row, int channel, const double d[3]) {
     static const double c1 = 0.4886025119029199;
     static const double c2[5] = { 1.0925484305920792, -1.0925484305920792, 0.31539156525252005,
@@ -109,7 +109,7 @@ static double color_seen(const float *row, int channel, const double d[3]) {
     return sum;
 }
 
-/* Rotation by `degrees` around an axis, Rodrigues' formula. */
+/* Rotates by `degrees` around an axis, by Rodrigues' formula. */
 static void rodrigues(const double axis[3], double degrees, const double v[3], double out[3]) {
     const double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
     const double k[3] = { axis[0] / length, axis[1] / length, axis[2] / length };
@@ -120,7 +120,7 @@ static void rodrigues(const double axis[3], double degrees, const double v[3], d
     out[2] = v[2] * c + (k[0] * v[1] - k[1] * v[0]) * s + k[2] * along;
 }
 
-/* Column `column` of the matrix of an orientation, as the rasterizer builds it (computeCov3D). */
+/* Computes a column of the matrix of an orientation, as the rasterizer builds it (computeCov3D). */
 static void orientation_column(const float *row, int column, double out[3]) {
     const float *o = row + ORIENTATION;
     const double r = (double)o[0], x = (double)o[1], y = (double)o[2], z = (double)o[3];

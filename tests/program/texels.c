@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Images as textures: each kind of PNG, JPEG and WebP gives the texels that were put in, by the
- * encoders of libpng, libjpeg-turbo and libwebp. */
+/* Images as textures: each kind of PNG, JPEG and WebP that libpng, libjpeg-turbo and libwebp encode
+ * gives the texels that were put in. */
 #include "app/scene/texture.h"
 #include "tests/oracle/check.h"
 
@@ -19,16 +19,17 @@ typedef struct encoded {
     size_t size;
 } encoded;
 
-static cli_error error;
+static base_error error;
 
-/* The texels of an image of WIDTH x HEIGHT; the builder keeps them. */
+/* Returns the texels of an image of WIDTH x HEIGHT, which the builder keeps. */
 static const unsigned char *decode(scene_builder *builder, encoded file) {
     scene_texture texture = { .width = 0 };
     *builder = (scene_builder) { .out_of_memory = false };
     error.text[0] = 0;
     if (!texture_keep(builder, file.bytes, file.size, TEXTURE_GLTF, "scene", "image", &texture,
                       &error) ||
-        !texture_decode_all(builder, "scene", &error) || builder_count(builder, BLOB_LEFT_OUT) > 0)
+        !texture_decode_all(builder, "scene", &error) ||
+        builder_count(builder, BLOB_UNSUPPORTED) > 0)
         return NULL;
     assert_int_equal(texture.width, WIDTH);
     assert_int_equal(texture.height, HEIGHT);
@@ -50,12 +51,12 @@ typedef struct png_kind {
     bool interlaced, transparent;
 } png_kind;
 
-/* Sample `s` of a pixel. */
+/* Returns sample `s` of a pixel. */
 static unsigned sample(int depth, int pixel, int s) {
     return (unsigned)(pixel * 40503 + s * 30011 + 12345) % (1u << depth);
 }
 
-enum { CLEAR = 5 }; /* the pixel whose color is the transparent one */
+enum { CLEAR = 5 }; /* the pixel of the transparent color */
 
 static int channels_of(int color) {
     return color == PNG_COLOR_TYPE_GRAY || color == PNG_COLOR_TYPE_PALETTE ? 1
@@ -103,7 +104,7 @@ static encoded make_png(const png_kind *kind) {
     png_set_IHDR(png, info, WIDTH, HEIGHT, kind->depth, kind->color,
                  kind->interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_gAMA(png, info, 1.0); /* glTF wants it ignored */
+    png_set_gAMA(png, info, 1.0); /* glTF requires it to be ignored */
     const png_uint_16 v[3] = { (png_uint_16)sample(kind->depth, CLEAR, 0),
                                (png_uint_16)sample(kind->depth, CLEAR, 1),
                                (png_uint_16)sample(kind->depth, CLEAR, 2) };
@@ -198,7 +199,7 @@ typedef struct jpeg_kind {
     bool progressive, without_adobe;
 } jpeg_kind;
 
-/* A channel is one color in the upper rows and another in the lower ones. */
+/* A channel has one value in the upper rows and another in the lower ones. */
 static unsigned char ink(int y, int channel) {
     return (unsigned char)(y < 8 ? 250 - 30 * channel : 40 + 60 * channel);
 }
@@ -237,7 +238,7 @@ static encoded make_jpeg(const jpeg_kind *kind) {
     return file;
 }
 
-/* Rows of 8 are blocks: each is flat, and so exact but for the rounding of colors. */
+/* Rows of 8 are blocks: each is flat, and so exact except for the rounding of colors. */
 static void check_jpeg(const jpeg_kind *kind) {
     scene_builder builder;
     const encoded file = make_jpeg(kind);
@@ -275,7 +276,7 @@ static void every_kind_of_jpeg_gives_its_colors(void **state) {
         check_jpeg(&kinds[i]);
 }
 
-/* 0xff 0x00 after a segment, before the next marker: some encoders pad so. */
+/* Some encoders pad by 0xff 0x00 after a segment, before the next marker. */
 static void bytes_before_a_marker_of_a_jpeg_are_skipped(void **state) {
     (void)state;
     const jpeg_kind kind = { JCS_RGB, JCS_YCbCr, true, false };
@@ -306,7 +307,7 @@ static void bytes_before_a_marker_of_a_jpeg_are_skipped(void **state) {
 static void a_webp_gives_its_texels(void **state) {
     (void)state;
     unsigned char rgba[4 * PIXELS];
-    for (int i = 0; i < 4 * PIXELS; i++) /* alpha is above 0, so that color is kept */
+    for (int i = 0; i < 4 * PIXELS; i++) /* alpha is above 0, so that the color is kept */
         rgba[i] = (unsigned char)(i % 4 == 3 ? 1 + i % 255 : i * i / 7);
     scene_builder builder;
     encoded file;
@@ -333,7 +334,7 @@ static void a_webp_gives_its_texels(void **state) {
     WebPFree(file.bytes);
 }
 
-/* 30 bytes that say 16384 x 16384: 1 GB is not allocated for them. */
+/* 30 bytes that claim 16384 x 16384 pixels: 1 GB must not be allocated for them. */
 static void a_webp_of_few_bytes_is_not_many_pixels(void **state) {
     (void)state;
     unsigned char bytes[40] = "RIFF\40\0\0\0WEBPVP8L\24\0\0\0\x2f\xff\xff\xff\x0f";

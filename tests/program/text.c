@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* UTF-16 as UTF-8, and blanks in XML. */
-#include "app/scene/text.h"
+#include "app/scene/load/text.h"
 
 #include "tests/oracle/check.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* An image is stored once, by however many names, images, samplers and materials a scene uses it;
- * and it is of a format that is documented. */
+/* An image is stored once, under however many names, images, samplers and materials a scene uses
+ * it; its format must be a documented one. */
 #include "app/scene/texture.h"
 #include "app/scene/scene.h"
 #include "tests/program/folder.h"
@@ -17,8 +17,8 @@ static const unsigned char pixel_png[] = {
     0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82
 };
 
-/* Base colors by three images of one file and four samplers, two of them alike, and one of the
- * images as metallic and roughness, which is another color space. */
+/* The scene has base colors by three images of one file and four samplers, two of them alike, and
+ * one of the images as metallic and roughness, which is another color space. */
 static void a_gltf_stores_an_image_once(void **state) {
     (void)state;
     folder_write_text(
@@ -42,7 +42,7 @@ static void a_gltf_stores_an_image_once(void **state) {
         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}");
     scene world = load(in_folder("scene.gltf"));
     assert_int_equal(world.texel_bytes, 4);
-    assert_int_equal(world.texture_count, 4); /* repeat, clamp, mirror, repeat and linear */
+    assert_int_equal(world.texture_count, 4); /* repeat, clamp, mirror; repeat as linear */
     static const int expected[] = { 0, 2, 0, 3, 0 };
     for (int i = 0; i < 5; i++)
         assert_int_equal(world.materials[i].base_color_map.texture, expected[i]);
@@ -63,8 +63,8 @@ static void an_obj_stores_an_image_once(void **state) {
     scene_free(&world);
 }
 
-/* The image that EXT_texture_webp names takes the place of the plain one. What only
- * KHR_texture_basisu names is left out, and said, also where the file requires it. */
+/* The image that EXT_texture_webp names replaces the plain one. An image that only
+ * KHR_texture_basisu names is unsupported, and reported, even where the file requires it. */
 static void a_webp_of_a_gltf_is_its_base_color(void **state) {
     (void)state;
     static const unsigned char color[4] = { 10, 20, 30, 255 };
@@ -97,8 +97,8 @@ static void a_webp_of_a_gltf_is_its_base_color(void **state) {
     static const int expected[] = { 0, 1, -1 };
     for (int i = 0; i < 3; i++)
         assert_int_equal(world.materials[i].base_color_map.texture, expected[i]);
-    assert_in_range(world.left_out_count, 1, 2); /* and that the triangle has no coordinates */
-    assert_string_equal(world.left_out[0].what, "KHR_texture_basisu");
+    assert_in_range(world.unsupported_count, 1, 2); /* also the triangle's lack of coordinates */
+    assert_string_equal(world.unsupported[0].what, "KHR_texture_basisu");
     scene_free(&world);
 }
 
@@ -110,7 +110,7 @@ static int make_folder(void **state) {
     return 0;
 }
 
-/* The decoder reads them all: one pixel of each. */
+/* The decoder could read them all: each file has one pixel. */
 static void formats_that_no_page_names_are_refused(void **state) {
     (void)state;
     static const char gif[] =
@@ -130,7 +130,7 @@ static void formats_that_no_page_names_are_refused(void **state) {
     for (size_t i = 0; i < sizeof images / sizeof *images; i++) {
         scene_builder builder = { .out_of_memory = false };
         scene_texture texture;
-        cli_error error;
+        base_error error;
         assert_false(texture_keep(&builder, images[i].bytes, images[i].size, TEXTURE_ANY, "scene",
                                   "image", &texture, &error));
         assert_string_equal(
@@ -140,8 +140,8 @@ static void formats_that_no_page_names_are_refused(void **state) {
     }
 }
 
-/* A file of some bytes that claims 10000 x 10000 pixels: the decoder would make them up, and the
- * cache would keep 400 MB. The same file of as many pixels as it has is read. */
+/* A file of some bytes claims 10000 x 10000 pixels: the decoder would invent them, and the cache
+ * would keep 400 MB. The same file with as many pixels as it has is read. */
 static void few_bytes_are_not_many_pixels(void **state) {
     (void)state;
     unsigned char bmp[64] = "BM\x40\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18";
@@ -156,7 +156,7 @@ static void few_bytes_are_not_many_pixels(void **state) {
     memcpy(jpeg + sizeof jpeg - 2, "\xff\xd9", 2);
     const struct {
         unsigned char *bytes;
-        size_t size, width, height; /* where these stand */
+        size_t size, width, height; /* offsets of these in the file */
         bool big_endian;
     } images[] = { { bmp, sizeof bmp, 18, 22, false },
                    { tga, sizeof tga, 12, 14, false },
@@ -165,7 +165,7 @@ static void few_bytes_are_not_many_pixels(void **state) {
         for (int large = 0; large < 2; large++) {
             scene_builder builder = { .out_of_memory = false };
             scene_texture texture;
-            cli_error error = { "" };
+            base_error error = { "" };
             if (large)
                 for (int k = 0; k < 2; k++) /* 10000 is 0x2710 */
                     memcpy(images[i].bytes + (k ? images[i].width : images[i].height),
@@ -185,7 +185,7 @@ static void few_bytes_are_not_many_pixels(void **state) {
 
 enum { IMAGES = 40, SIDE_MAX = IMAGES + 2 };
 
-/* A gray TGA of (number + 3) x 3 pixels; its last `missing` bytes are cut off. */
+/* Writes a gray TGA of (number + 3) x 3 pixels; its last `missing` bytes are cut off. */
 static void write_gray(int number, size_t missing) {
     unsigned char bytes[18 + 3 * 3 * SIDE_MAX] = "\0\0\2\0\0\0\0\0\0\0\0\0\0\0\3\0\x18";
     char name[32];
@@ -225,11 +225,11 @@ static void images_are_decoded_side_by_side(void **state) {
     scene_free(&world);
 }
 
-/* What is kept is the files' bytes, not the texels. */
+/* The scene keeps the files' bytes, not the texels. */
 static void images_stay_as_their_files_have_them(void **state) {
     (void)state;
     scene world;
-    cli_error error;
+    base_error error;
     write_grays();
     assert_true(scene_load(in_folder("grays.obj"),
                            &(scene_options) { .no_cache = true, .no_texels = true }, &world,
@@ -242,23 +242,23 @@ static void images_stay_as_their_files_have_them(void **state) {
     scene_free(&world);
 }
 
-/* Whoever needs no texels does not notice; who does is shown the rest of the scene. */
-static void an_image_that_cannot_be_decoded_is_left_out(void **state) {
+/* A reader that needs no texels does not notice; others are shown the rest of the scene. */
+static void an_image_that_cannot_be_decoded_is_unsupported(void **state) {
     (void)state;
     static const unsigned char damaged[] =
         "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x8\2\0\0\0\x90wS\xde\0\0\0\0IDAT";
     scene_options options = { .no_cache = true, .no_texels = true };
     scene world;
-    cli_error error = { "" };
+    base_error error = { "" };
     write_grays();
     folder_write("gray7.tga", damaged, sizeof damaged - 1);
     assert_true(scene_load(in_folder("grays.obj"), &options, &world, &error));
-    assert_int_equal(world.left_out_count, 0);
+    assert_int_equal(world.unsupported_count, 0);
     scene_free(&world);
     options.no_texels = false;
     assert_true(scene_load(in_folder("grays.obj"), &options, &world, &error));
-    assert_int_equal(world.left_out_count, 1);
-    assert_string_equal(world.left_out[0].what, "gray7.tga");
+    assert_int_equal(world.unsupported_count, 1);
+    assert_string_equal(world.unsupported[0].what, "gray7.tga");
     int bare = 0;
     for (size_t i = 0; i < world.material_count; i++) {
         const int32_t texture = world.materials[i].base_color_map.texture;
@@ -278,7 +278,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(images_are_decoded_side_by_side),
         cmocka_unit_test(images_stay_as_their_files_have_them),
-        cmocka_unit_test(an_image_that_cannot_be_decoded_is_left_out),
+        cmocka_unit_test(an_image_that_cannot_be_decoded_is_unsupported),
         cmocka_unit_test(a_gltf_stores_an_image_once),
         cmocka_unit_test(an_obj_stores_an_image_once),
         cmocka_unit_test(a_webp_of_a_gltf_is_its_base_color),

@@ -25,11 +25,11 @@ npm ci --ignore-scripts --no-audit --no-fund --fetch-retries 0 --fetch-timeout 6
     skip "npm cannot reach its registry"
 }
 mkdir -p shaders
-cp "$SOURCE/shaders/ggx.glsl" "$SOURCE/shaders/lampion.glsl" shaders/
+cp "$SOURCE/shaders/lampion/ggx.glsl" "$SOURCE/shaders/lampion/lampion.glsl" shaders/
 "$BUILD/tests/program/ggx_texels" >shaders/ggx.f32
 LAMPION=$PROGRAM node probe.js 0 0.6 0
 
-# draw NAME QUERY OPTION…: NAME.exr by the page, and truth.exr of what it drew by lampion render
+# draw NAME QUERY OPTION…: writes NAME.exr by the page, and truth.exr of the same scene by lampion render.
 draw() {
     name=$1
     node "$SOURCE/tests/program/three.mjs" . "export&$2" chromium >"$WORK/log" 2>&1 || fail "$name: $(cat "$WORK/log")"

@@ -3,7 +3,7 @@
 set -eu
 . tests/checks/common.sh
 
-# refuses STATUS TEXT COMMAND…: ends so, saying TEXT, and leaves no image behind.
+# refuses STATUS TEXT COMMAND…: the command must end with STATUS, print TEXT, and leave no image behind.
 refuses() {
     expected=$1 text=$2
     shift 2
@@ -15,7 +15,7 @@ refuses() {
     [ ! -e "$WORK/none.png" ] || fail "$*: left an image"
 }
 
-# E = pi L sin²a cos(theta) of a sphere of radius 1/2 at distance 2, half of it by a white floor
+# E = pi L sin²a cos(theta) of a sphere of radius 1/2 at distance 2, half reflected by a white floor.
 radiance=$("$PROGRAM" reference --point 0,0,0 --light 0,2,0,0.5,8,16,32)
 [ "$radiance" = "0.5 1 2" ] || fail "one point: $radiance"
 small="--size 48x32 --random-lights 3 --spp 8"
@@ -33,7 +33,7 @@ grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the image"
     --fail-above rmse=1000 | grep -q '"bad_values": 0' || fail "no JSON"
 # the width and the height of a .png, after its signature and the head of its first chunk: 48x32 and the scale below
 [ "$(od -An -tx1 -j16 -N8 "$WORK/heat.png" | tr -d ' \n')" = 000000300000003c ] || fail "no heat map with its scale"
-# a .png is filtered over the pixel, a .exr where it is asked for
+# A .png is filtered over the pixel, a .exr only on request.
 "$PROGRAM" reference builtin:balls $small --samples 1 -o "$WORK/center.png"
 ! cmp -s "$WORK/one.png" "$WORK/center.png" || fail "a .png is not filtered"
 "$PROGRAM" reference builtin:balls $small --samples 8 -o "$WORK/filtered.exr"
@@ -42,7 +42,7 @@ grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the image"
 cmp -s "$WORK/one.exr" "$WORK/filtered.exr" || fail "a .exr is filtered"
 refuses 2 'without --bands, --error and --samples' reference builtin:balls --shard 1/2 --samples 8 -o "$WORK/part.exr"
 
-# one lamp's edge does not leave the rest of the map black
+# One lamp's edge must not leave the rest of the map black.
 "$PROGRAM" compare "$WORK/one.exr" "$WORK/other.exr" --heatmap "$WORK/heat.png" >"$WORK/out"
 grep -q '^heatmap black is 0, white [0-9.e-]*, which 99 % of the pixels do not exceed$' "$WORK/out" ||
     fail "the heat map does not say what is white: $(cat "$WORK/out")"
@@ -51,7 +51,7 @@ awk '$1 == "max" { most = $2 } $1 == "heatmap" { exit !($6 + 0 < most) }' "$WORK
     awk '$1 == "max" { most = $2 } $1 == "heatmap" { exit !($6 + 0 == most) }' || fail "the percentile 100 is not the largest"
 "$PROGRAM" compare "$WORK/one.png" "$WORK/brighter.png" | grep -q display || fail "PNG is not display"
 
-# a camera beyond 1e17 in a scene, as on the command line: the ray tracer would abort
+# A camera beyond 1e17 is refused in a scene as on the command line: the ray tracer would abort.
 cat >"$WORK/far.gltf" <<'GLTF'
 { "asset": { "version": "2.0" }, "scenes": [ { "nodes": [ 0, 1 ] } ],
   "nodes": [ { "mesh": 0 }, { "translation": [ 0, 1e30, 0 ], "camera": 0 } ],
@@ -67,7 +67,7 @@ for command in reference render; do
 done
 refuses 1 'rmse is .*, limit 0' compare "$WORK/one.exr" "$WORK/other.exr" --fail-above rmse=0
 refuses 1 'ssim is .*, limit 1' compare "$WORK/one.png" "$WORK/brighter.png" --fail-above ssim=1
-# what is no light at all has no peak to be alike by
+# A black image has no peak to compare by.
 echo '{ "lights": [ { "position": [0, 9, 0], "radius": 1, "radiance": [0, 0, 0] } ] }' >"$WORK/off.json"
 "$PROGRAM" reference builtin:balls --size 48x32 --environment none --lights "$WORK/off.json" --spp 1 -o "$WORK/black.exr"
 refuses 1 'ssim is 0, limit' compare "$WORK/one.exr" "$WORK/black.exr" --fail-above ssim=0.5

@@ -6,7 +6,7 @@ export XDG_CACHE_HOME="$WORK/cache"
 cd "$WORK"
 own_scene plain.gltf
 
-# a second material, black and as bright as 1, and a variant that shows it
+# The scene has a second material, black and glowing with 1, and a variant that shows it.
 mapping='"KHR_materials_variants": { "mappings": [ { "material": 0, "variants": [ 1 ] } ] }'
 names='"KHR_materials_variants": { "variants": [ { "name": "day" }, { "name": "night" } ] }'
 lamp='{ "name": "lamp", "emissiveFactor": [1, 1, 1], "pbrMetallicRoughness": { "baseColorFactor": [0, 0, 0, 1] } }'
@@ -17,7 +17,7 @@ sed -e "s/\"materials\": \\[/&$lamp,/" -e "s/\"material\": 0/\"material\": 1, \"
 "$PROGRAM" info --json scene.gltf | tr -d ' \n\t' | grep -qF '"variants":["day","night"]' || fail "nor as JSON"
 ! "$PROGRAM" info plain.gltf | grep -q variants || fail "info lists variants where there are none"
 
-# by night each pixel of the triangle has a radiance of 1; by day, without a light, of 0
+# At night each pixel of the triangle has a radiance of 1; by day, without a light, of 0.
 view='--size 8x8 --eye 0,1,0 --target 0,0,0'
 for variant in day night; do
     "$PROGRAM" render scene.gltf --variant $variant --hide-lights --environment none $view -o $variant.exr

@@ -18,7 +18,7 @@ static view_state state;
 
 static int open_state(void **unused) {
     (void)unused;
-    cli_error error;
+    base_error error;
     static view_settings settings;
     memset(&settings, 0, sizeof settings);
     if (!scene_load("builtin:ball", NULL, &world, &error))

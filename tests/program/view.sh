@@ -5,13 +5,15 @@ set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
 tries=600
+# as in a container that grants less: the viewer's settings alone are 5 MB, and none lie on the stack
+ulimit -s 4096
 # leaks are looked for in view_memory.sh, for the driver and fontconfig have some
 export ASAN_OPTIONS=detect_leaks=0
 export LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
 mkdir -p "$XDG_CACHE_HOME"
 part=$1
 
-# without a display: one line that says what to do instead
+# Without a display one line must say what to do instead.
 status=0
 (unset DISPLAY WAYLAND_DISPLAY; "$PROGRAM" view builtin:ball) 2>"$WORK/err" || status=$?
 [ $status = 1 ] || fail "without a display: status $status"
@@ -40,12 +42,12 @@ printf 'newmtl floor\nKd 0.7 0.7 0.7\nnewmtl wall\nKd 0.8 0.3 0.2\n' >room.mtl
 echo '{ "lights": [ { "position": [0, 1, 3], "radius": 0.2, "radiance": 20 },
     { "position": [-2, 2, 0], "radius": 0.1, "radiance": [5, 40, 80] } ] }' >lights.json
 
-# value NAME: of the state; the first of that name
+# value NAME: prints the first value of that name in the state.
 value() {
     sed -n "s/^[[:space:]]*\"$1\":[[:space:]]*\(.*[^,]\),\{0,1\}$/\1/p" state.json 2>/dev/null | head -n 1
 }
 
-# second NAME: the same of the other side
+# second NAME: prints the value of the other side.
 second() {
     sed -n "s/^[[:space:]]*\"$1\":[[:space:]]*\(.*[^,]\),\{0,1\}$/\1/p" state.json | sed -n 2p
 }
@@ -138,7 +140,7 @@ test_session() {
     xdotool key space
     until_true "pausing" is value playing false
 
-    # the window: another size, hidden and shown, the graphics anew, the help
+    # the window: another size, hidden and shown, the graphics again, the help
     window=$(xdotool search --name 'room.obj - Lampion' | tail -n 1)
     xdotool windowsize "$window" 400 240
     until_true "resizing" is value width 400
@@ -148,7 +150,7 @@ test_session() {
     until_true "no help" is value help false
     xdotool key shift+F5
     until_true "starting again" says "graphics were started again"
-    is value width 400 || fail "starting anew lost the size"
+    is value width 400 || fail "starting again lost the size"
 
     # the scene file: broken, it stays; mended, it is read again
     shot

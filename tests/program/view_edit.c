@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The viewer's panel of values, undo, and files that are opened. */
+/* The viewer's panel of values, its undo, and files that are opened. */
 #include "app/scene/space.h"
 #include "app/scene/vector.h"
 #include "app/view/panel.h"
@@ -14,19 +14,19 @@ static void drop(const char *file) {
     view_handle(&state, &(view_event) { .kind = VIEW_DROP, .text = file });
 }
 
-/* A light that is selected, with the panel of its values open. */
+/* Selects a light and opens the panel of its values. */
 static void open_light(void) {
     state.now.light_count = 1;
     state.now.lights[0] = (scene_light) {
         .emitter = { .position = { 0, 0.5f, 6 }, .radius = 0.25f, .radiance = { 4, 2, 1 } }
     };
-    key("F11"); /* any key: what was put there is the present */
+    key("F11"); /* any key makes the light part of the present state */
     key("Tab");
     key("Enter");
     assert_int_equal(state.panel.kind, VIEW_PANEL_LIGHT);
 }
 
-/* The value that the panel shows for a name. */
+/* Returns the value that the panel shows for a name. */
 static const char *value_of(const char *name) {
     static view_row rows[VIEW_PANEL_ROWS];
     const int count = view_panel_rows(&state, rows);
@@ -64,7 +64,7 @@ static void a_light_has_the_values_that_are_typed(void **unused) {
     key("Backspace");
     key("Enter");
     CHECK_NEAR(0.5, light->radius, 0);
-    choose("power"); /* of each color; 4 pi^2 r^2 L */
+    choose("power"); /* per channel; 4 pi^2 r^2 L */
     type("98.696044");
     key("Enter");
     CHECK_NEAR(10, light->radiance.r, 1e-5);
@@ -111,7 +111,7 @@ static void letters_are_keys_again_without_the_panel(void **unused) {
     assert_int_not_equal(state.now.shading[0].method, before);
     key("Tab");
     key("Enter");
-    key("Delete"); /* its light goes, and with it the panel */
+    key("Delete"); /* its light is removed, and the panel with it */
     type("m");
     assert_int_equal(state.panel.kind, VIEW_PANEL_CLOSED);
 }
@@ -131,7 +131,7 @@ static void materials_are_typed_by_name(void **unused) {
     assert_non_null(strstr(state.message, "ggx"));
     assert_string_equal(view_material_of(&state.now, name), "ggx:0.3");
     type("x");
-    key("Backspace"); /* nothing: as the scene has it */
+    key("Backspace"); /* nothing typed restores the scene's own value */
     key("Enter");
     assert_null(view_material_of(&state.now, name));
 }
@@ -160,7 +160,7 @@ static void undo_goes_back_through_lights_and_materials(void **unused) {
     key("Ctrl+Y");
     key("Ctrl+Y");
     CHECK_NEAR(large, state.now.lights[count].emitter.radius, 0);
-    key("["); /* another way: what was undone is gone */
+    key("["); /* another change discards what was undone */
     key("Ctrl+Y");
     assert_null(view_material_of(&state.now, name));
     assert_int_equal(state.now.light_count, count + 1);
@@ -185,7 +185,7 @@ static void a_drag_is_undone_at_once(void **unused) {
     assert_memory_equal(&before, &state.now.lights[0], sizeof before);
 }
 
-/* So many steps of so many lights that not all are kept. */
+/* The changes of that many lights are too many to be kept. */
 static void the_oldest_steps_are_forgotten(void **unused) {
     (void)unused;
     static scene_light many[SCENE_LIGHTS_MAX];
@@ -206,7 +206,7 @@ static void the_oldest_steps_are_forgotten(void **unused) {
 
 static void lights_are_saved_and_dropped(void **unused) {
     (void)unused;
-    cli_error error;
+    base_error error;
     char *path = strdup(in_folder("saved.json"));
     open_light();
     const scene_light before = state.now.lights[0];
@@ -227,16 +227,16 @@ static void lights_are_saved_and_dropped(void **unused) {
 }
 
 static void read_lights(scene *s, const char *name) {
-    cli_error error;
+    base_error error;
     const scene_lights_options options = { .file = in_folder(name) };
     assert_true(scene_apply_lights(s, &options, &error));
 }
 
-/* A screenshot, and the state that --state writes. */
+/* Lights are read from a screenshot, and from the state that --state writes. */
 static void lights_are_read_from_settings(void **unused) {
     (void)unused;
     static const unsigned char black[3 * 640 * 480];
-    cli_error error;
+    base_error error;
     open_light();
     assert_true(view_write_shot(&state.now, black, in_folder("shot.png"), &error));
     scene *s = calloc(1, sizeof *s);
@@ -251,28 +251,28 @@ static void lights_are_read_from_settings(void **unused) {
     free(s);
 }
 
-static void another_scene_begins_anew(void **unused) {
+static void another_scene_starts_afresh(void **unused) {
     (void)unused;
     static scene other;
-    cli_error error;
+    base_error error;
     at(320, 240);
     key("n");
     key("t");
     drop("builtin:balls");
-    assert_true(state.wishes.reload);
+    assert_true(state.requests.reload);
     assert_string_equal(state.other, "builtin:balls");
     assert_true(scene_load("builtin:balls", NULL, &other, &error));
     assert_true(view_state_replace_scene(&state, &other, &error));
     assert_string_equal(state.now.scene, "builtin:balls");
     assert_int_equal(state.now.light_count, other.light_count);
     assert_int_equal(state.now.material_count, 0);
-    assert_true(state.wishes.expose && !state.other[0]);
+    assert_true(state.requests.expose && !state.other[0]);
     key("Ctrl+Z");
     assert_non_null(strstr(state.message, "Nothing"));
     key("Ctrl+O");
     type("ggx:0.2");
     at(1, 1);
-    state.now.camera.target[1] += 1000; /* the sky */
+    state.now.camera.target[1] += 1000; /* toward the sky */
     key("Enter");
     assert_non_null(strstr(state.message, "drop it onto an object"));
     assert_true(view_state_replace_scene(&state, &world, &error));
@@ -291,7 +291,7 @@ static void a_key_sees_a_scene_from_inside_and_from_outside(void **unused) {
     }
 }
 
-/* Outside one goes around what stands there, inside one turns the head. */
+/* Outside, the button orbits what stands there; inside, it turns the head. */
 static void inside_a_building_the_left_button_looks_around(void **unused) {
     (void)unused;
     assert_false(state.walking);
@@ -309,7 +309,7 @@ static void inside_a_building_the_left_button_looks_around(void **unused) {
     const lmp_vec3 view = vec_sub(vec_load(rotated.target), vec_load(rotated.eye));
     assert_true(vec_dot(way, view) > 0.999f * vec_length(way) * vec_length(view));
     scene atrium;
-    cli_error error;
+    base_error error;
     assert_true(scene_load("builtin:atrium", NULL, &atrium, &error));
     strcpy(state.other, "builtin:atrium");
     assert_true(view_state_replace_scene(&state, &atrium, &error));
@@ -329,7 +329,7 @@ int main(void) {
         TEST(the_oldest_steps_are_forgotten),
         TEST(lights_are_saved_and_dropped),
         TEST(lights_are_read_from_settings),
-        TEST(another_scene_begins_anew),
+        TEST(another_scene_starts_afresh),
         TEST(a_key_sees_a_scene_from_inside_and_from_outside),
         TEST(inside_a_building_the_left_button_looks_around),
     };

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What the viewer reads and writes, its keys as a table, its drafts and drawings. */
+/* The viewer's files, its keys as a table, its previews and drawings. */
 #include "app/scene/instance.h"
-#include "app/view/draft.h"
 #include "app/view/overlay.h"
+#include "app/view/preview.h"
 #include "app/view/script.h"
 #include "tests/program/view.h"
 
-#include <cjson/cJSON.h>
+#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ static void screenshots_keep_every_setting(void **unused) {
     static view_settings read;
     static unsigned char rgb8[3 * 64 * 48];
     const char *path = "/tmp/lampion-view-test.png";
-    cli_error error;
+    base_error error;
     at(320, 240);
     key("v");
     key("t");
@@ -32,69 +32,67 @@ static void screenshots_keep_every_setting(void **unused) {
         !view_read_shot(path, &(view_shot_options) { .pixels_max = 64 * 48 }, &read, &error))
         fail_msg("%s", error.text);
     unlink(path);
-    read.camera.aspect = state.now.camera.aspect; /* of no effect */
+    read.camera.aspect = state.now.camera.aspect; /* without effect */
     memcpy(read.camera.name, state.now.camera.name, sizeof read.camera.name);
     assert_memory_equal(&read, &state.now, sizeof read);
 }
 
-/* The settings as a screenshot has them, read as JSON alone. */
-static cJSON *written_settings(void) {
-    cJSON *written = view_settings_to_json(&state.now);
-    char *text = cJSON_PrintUnformatted(written);
-    cJSON *root = cJSON_Parse(text);
-    cJSON_free(text);
-    cJSON_Delete(written);
+/* Returns the settings as a screenshot holds them, read as plain JSON. */
+static json_t *written_settings(void) {
+    json_t *written = view_settings_to_json(&state.now);
+    char *text = json_dumps(written, JSON_COMPACT);
+    json_t *root = json_loads(text, JSON_DECODE_INT_AS_REAL, NULL);
+    free(text);
+    json_decref(written);
     return root;
 }
 
 static void damaged_settings_are_refused(void **unused) {
     (void)unused;
     static view_settings read;
-    cli_error error;
-    cJSON *root = written_settings();
+    base_error error;
+    json_t *root = written_settings();
     assert_true(view_settings_from_json(root, "shot", &read, &error));
     static const char *const numbers[] = { "width", "height", "samples", "exposure", "divider" };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-        cJSON *item = cJSON_GetObjectItem(root, numbers[i]);
-        const double before = item->valuedouble;
-        cJSON_SetNumberValue(item, -1);
+        const double before = json_number_value(json_object_get(root, numbers[i]));
+        json_object_set_new(root, numbers[i], json_real(-1));
         assert_false(view_settings_from_json(root, "shot", &read, &error));
         assert_non_null(strstr(error.text, numbers[i]));
-        cJSON_SetNumberValue(item, (double)NAN);
+        json_object_set_new(root, numbers[i], json_null());
         assert_false(view_settings_from_json(root, "shot", &read, &error));
-        cJSON_SetNumberValue(item, before);
+        json_object_set_new(root, numbers[i], json_real(before));
     }
     assert_true(view_settings_from_json(root, "shot", &read, &error));
-    cJSON *shadows = cJSON_DetachItemFromObject(root, "shadows");
+    json_object_del(root, "shadows");
     assert_true(view_settings_from_json(root, "shot", &read, &error));
-    cJSON_Delete(shadows);
-    cJSON_AddNumberToObject(root, "shadows", 1);
+    json_object_set_new(root, "shadows", json_integer(1));
     assert_false(view_settings_from_json(root, "shot", &read, &error));
     assert_non_null(strstr(error.text, "shadows"));
-    cJSON_DeleteItemFromObject(root, "shadows");
+    json_object_del(root, "shadows");
     static const char *const parts[] = { "scene", "camera", "looks", "lights", "materials" };
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        cJSON *item = cJSON_DetachItemFromObject(root, parts[i]);
+        json_t *item = json_incref(json_object_get(root, parts[i]));
+        json_object_del(root, parts[i]);
         assert_false(view_settings_from_json(root, "shot", &read, &error));
         assert_non_null(strstr(error.text, parts[i]));
-        cJSON_AddItemToObject(root, parts[i], item);
+        json_object_set_new(root, parts[i], item);
     }
-    cJSON_ReplaceItemInObject(root, "scene", cJSON_CreateString("-"));
+    json_object_set_new(root, "scene", json_string("-"));
     assert_false(view_settings_from_json(root, "shot", &read, &error));
     assert_non_null(strstr(error.text, "scene"));
-    cJSON_ReplaceItemInObject(root, "scene", cJSON_CreateString("builtin:balls"));
+    json_object_set_new(root, "scene", json_string("builtin:balls"));
     static const char *const inputs[] = { "ball=-", "ball=sgd:-:nickel" };
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
-        cJSON *materials = cJSON_CreateArray();
-        cJSON_AddItemToArray(materials, cJSON_CreateString(inputs[i]));
-        cJSON_ReplaceItemInObject(root, "materials", materials);
+        json_object_set_new(root, "materials", json_pack("[s]", inputs[i]));
         assert_false(view_settings_from_json(root, "shot", &read, &error));
         assert_non_null(strstr(error.text, "materials"));
     }
-    cJSON_Delete(root);
+    json_decref(root);
 }
 
-/* Settings with one number of the camera or of a light beyond what every other source takes. */
+/* The settings have one number of the camera or of a light beyond what every other source allows.
+ */
 static void settings_out_of_reach_are_refused(void **unused) {
     (void)unused;
     static view_settings read;
@@ -107,23 +105,23 @@ static void settings_out_of_reach_are_refused(void **unused) {
     at(320, 240);
     key("n"); /* a light */
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        cli_error error;
-        cJSON *root = written_settings(), *part = cJSON_GetObjectItem(root, cases[i].part);
+        base_error error;
+        json_t *root = written_settings(), *part = json_object_get(root, cases[i].part);
         assert_true(view_settings_from_json(root, "shot", &read, &error));
-        const cJSON *from = cJSON_IsArray(part) ? cJSON_GetArrayItem(part, 0) : part;
-        cJSON *item = cJSON_GetObjectItem(from, cases[i].member);
+        json_t *from = json_is_array(part) ? json_array_get(part, 0) : part;
+        json_t *item = json_object_get(from, cases[i].member);
         assert_non_null(item);
-        cJSON *number = cJSON_IsArray(item) ? cJSON_GetArrayItem(item, 1) : item;
-        cJSON_SetNumberValue(number, 1e30);
+        json_t *number = json_is_array(item) ? json_array_get(item, 1) : item;
+        json_real_set(number, 1e30);
         assert_false(view_settings_from_json(root, "shot", &read, &error));
         assert_non_null(strstr(error.text, cases[i].part));
-        cJSON_Delete(root);
+        json_decref(root);
     }
 }
 
 static bool read_script(const char *text, view_script *script) {
     char path[] = "/tmp/lampion-script-XXXXXX";
-    cli_error error;
+    base_error error;
     const int descriptor = mkstemp(path);
     assert_true(descriptor >= 0);
     assert_int_equal(write(descriptor, text, strlen(text)), strlen(text));
@@ -181,37 +179,37 @@ static void every_key_of_the_help_does_something(void **unused) {
         if (row->key)
             key(row->key);
     }
-    assert_true(state.wishes.quit && state.wishes.shot && state.wishes.reload);
+    assert_true(state.requests.quit && state.requests.shot && state.requests.reload);
 }
 
-/* --- drafts and drawings ---------------------------------------------------------------------- */
+/* --- previews and drawings -------------------------------------------------------------------- */
 
-static void drafts_have_fewer_triangles_in_the_same_bounds(void **unused) {
+static void previews_have_fewer_triangles_in_the_same_bounds(void **unused) {
     (void)unused;
-    scene large, draft;
-    cli_error error;
+    scene large, preview;
+    base_error error;
     assert_true(scene_load("builtin:atrium", NULL, &large, &error));
-    assert_true(view_draft_make(&large, 500, &draft, &error));
-    assert_true(draft.index_count > 0 && draft.index_count < large.index_count / 2);
-    assert_int_equal(draft.mesh_count, large.mesh_count);
-    for (size_t i = 0; i < draft.index_count; i++)
-        assert_true(draft.indices[i] < draft.vertex_count);
-    for (size_t m = 0; m < draft.mesh_count; m++) {
-        const scene_mesh *mesh = &draft.meshes[m];
-        assert_true(mesh->first_index + mesh->index_count <= draft.index_count);
+    assert_true(view_preview_make(&large, 500, &preview, &error));
+    assert_true(preview.index_count > 0 && preview.index_count < large.index_count / 2);
+    assert_int_equal(preview.mesh_count, large.mesh_count);
+    for (size_t i = 0; i < preview.index_count; i++)
+        assert_true(preview.indices[i] < preview.vertex_count);
+    for (size_t m = 0; m < preview.mesh_count; m++) {
+        const scene_mesh *mesh = &preview.meshes[m];
+        assert_true(mesh->first_index + mesh->index_count <= preview.index_count);
         for (uint32_t i = 0; i < mesh->index_count; i++) {
-            const float *p = draft.vertices[draft.indices[mesh->first_index + i]].position;
+            const float *p = preview.vertices[preview.indices[mesh->first_index + i]].position;
             for (int k = 0; k < 3; k++)
                 assert_true(p[k] >= mesh->minimum[k] && p[k] <= mesh->maximum[k]);
         }
     }
-    view_draft_free(&draft);
+    view_preview_free(&preview);
     scene_free(&large);
 }
 
-/* Groups of one triangle each, beside many vertices that none of them uses: work that grew with
- * both would outlast the limit of any test. */
-static void drafts_of_many_meshes_cost_no_more_than_their_triangles(void **unused) {
+/* The scene has groups of one triangle each, beside many vertices that none of them uses: work
+ * proportional to both would exceed the limit of any test. */
+static void previews_of_many_meshes_cost_no_more_than_their_triangles(void **unused) {
     (void)unused;
     enum { MESHES = 200000, VERTICES = 16 << 20 };
     scene_vertex *vertices = calloc(VERTICES, sizeof *vertices);
@@ -235,12 +233,12 @@ static void drafts_of_many_meshes_cost_no_more_than_their_triangles(void **unuse
                           .mesh_count = MESHES,
                           .instance_count = MESHES,
                           .maximum = { 1, 1, 0 } };
-    scene draft;
-    cli_error error;
-    assert_true(view_draft_make(&large, 500, &draft, &error));
-    assert_int_equal(draft.mesh_count, MESHES);
-    assert_int_equal(draft.index_count, 3 * MESHES);
-    view_draft_free(&draft);
+    scene preview;
+    base_error error;
+    assert_true(view_preview_make(&large, 500, &preview, &error));
+    assert_int_equal(preview.mesh_count, MESHES);
+    assert_int_equal(preview.index_count, 3 * MESHES);
+    view_preview_free(&preview);
     free(vertices);
     free(meshes);
     free(instances);
@@ -274,8 +272,8 @@ int main(void) {
         TEST(settings_out_of_reach_are_refused),
         TEST(scripts_are_read_strictly),
         TEST(every_key_of_the_help_does_something),
-        TEST(drafts_have_fewer_triangles_in_the_same_bounds),
-        TEST(drafts_of_many_meshes_cost_no_more_than_their_triangles),
+        TEST(previews_have_fewer_triangles_in_the_same_bounds),
+        TEST(previews_of_many_meshes_cost_no_more_than_their_triangles),
         TEST(drawings_fit_and_grow_with_the_scale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

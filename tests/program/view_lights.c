@@ -7,7 +7,7 @@ static double light_distance(const scene_light *a, const scene_light *b) {
     return (double)vec_length(vec_sub(a->emitter.position, b->emitter.position));
 }
 
-/* One light between camera and scene. */
+/* Puts one light between camera and scene. */
 static void put_light(void) {
     state.now.light_count = 1;
     state.now.lights[0] = (scene_light) {
@@ -34,7 +34,7 @@ static void lights_are_dragged_with_the_pointer(void **unused) {
     view_handle(&state, &(view_event) { .kind = VIEW_SCROLL, .y = 1 });
     view_project(camera, 640, 480, *center, &x2, &y2, &scale2);
     CHECK_NEAR(x + 60, x2, 1e-2);
-    assert_true(scale2 < 0.95 * scale); /* the wheel took it away */
+    assert_true(scale2 < 0.95 * scale); /* the wheel moved it away */
     button(VIEW_RELEASE, VIEW_LEFT, false);
     at(5, 5);
     button(VIEW_PRESS, VIEW_LEFT, false);
@@ -42,7 +42,7 @@ static void lights_are_dragged_with_the_pointer(void **unused) {
     button(VIEW_RELEASE, VIEW_LEFT, false);
 }
 
-/* However far the wheel takes a light or the eye, a file that is written then is read again. */
+/* However far the wheel moves a light or the eye, a file written then can be read again. */
 static void nothing_leaves_the_lengths_that_files_take(void **unused) {
     (void)unused;
     double x, y, scale;
@@ -76,7 +76,7 @@ static void lights_are_dragged_by_parallel_rays(void **unused) {
     camera->height = 8;
     view_project(camera, 640, 480, *center, &x, &y, &scale);
     CHECK_NEAR(60, scale, 1e-3);
-    at(x, y + 18); /* 15 pixels of radius, and 4 that one may miss it by */
+    at(x, y + 18); /* the radius is 15 pixels, and the pointer may miss it by 4 */
     button(VIEW_PRESS, VIEW_LEFT, false);
     assert_int_equal(state.selected, 0);
     const scene_light before = state.now.lights[0];
@@ -90,7 +90,7 @@ static void lights_are_dragged_by_parallel_rays(void **unused) {
     button(VIEW_RELEASE, VIEW_LEFT, false);
 }
 
-/* A light that moves is dragged from where it is seen. */
+/* A light in motion is dragged from where it is seen. */
 static void moving_lights_are_dragged_too(void **unused) {
     (void)unused;
     static view_settings shown;
@@ -144,7 +144,7 @@ static void lights_change_as_the_keys_say(void **unused) {
     key("-");
     for (int i = 0; i < 12; i++)
         key("h");
-    for (int k = 0; k < 3; k++) /* around the circle; clamping to gamut may pale it a little */
+    for (int k = 0; k < 3; k++) /* the circle of hues; clamping may pale it a little */
         assert_true((&light->emitter.radiance.r)[k] >= 0 &&
                     isfinite((&light->emitter.radiance.r)[k]));
     CHECK_NEAR(4, light->emitter.radiance.r, 0.05);
@@ -161,7 +161,7 @@ static void lights_change_as_the_keys_say(void **unused) {
     assert_int_equal(state.now.light_count, 2);
     assert_int_equal(state.selected, 1);
     key("Delete");
-    key("Delete"); /* nothing is selected any more */
+    key("Delete"); /* nothing is selected any longer */
     assert_int_equal(state.now.light_count, 1);
     assert_true(state.message[0]);
     static scene_light many[SCENE_LIGHTS_MAX - 1];
@@ -173,16 +173,16 @@ static void lights_change_as_the_keys_say(void **unused) {
     assert_int_equal(state.now.light_count, SCENE_LIGHTS_MAX);
 }
 
-/* Each key K on the way around the kinds leaves a light that could have come from a file. */
+/* Each key K, through all kinds, leaves a light that could have come from a file. */
 static void lights_take_every_kind(void **unused) {
     (void)unused;
     scene_light_error wrong;
     put_light();
     key("Tab");
     const scene_light *light = &state.now.lights[0];
-    for (int i = 1; i <= LMP_LIGHT_KINDS; i++) {
+    for (int i = 1; i <= SCENE_LIGHT_KIND_COUNT; i++) {
         key("k");
-        assert_int_equal(light->emitter.kind, i % LMP_LIGHT_KINDS);
+        assert_int_equal(light->emitter.kind, i % SCENE_LIGHT_KIND_COUNT);
         for (int step = 0; step < 60; step++)
             key("]");
         key("h");
@@ -192,10 +192,11 @@ static void lights_take_every_kind(void **unused) {
     }
     CHECK_NEAR(6, light->emitter.position.z, 0);
     key("K");
-    assert_int_equal(light->emitter.kind, LMP_LIGHT_KINDS - 1);
+    assert_int_equal(light->emitter.kind, SCENE_LIGHT_KIND_COUNT - 1);
 }
 
-/* A spot looks at the surface under the pointer, a sun stands where the pointer is in the sky. */
+/* A spot is aimed at the surface under the pointer; a sun stands where the pointer is in the sky.
+ */
 static void lights_are_directed_at_the_pointer(void **unused) {
     (void)unused;
     put_light();
@@ -215,7 +216,7 @@ static void lights_are_directed_at_the_pointer(void **unused) {
     CHECK_NEAR(0, vec_length(vec_sub(ray.direction, light->direction)), 1e-5);
 }
 
-/* What has no position is not under the pointer, wherever that is. */
+/* A light without a position is never under the pointer. */
 static void suns_and_skies_are_not_picked(void **unused) {
     (void)unused;
     double x, y, scale;

@@ -2,6 +2,7 @@
 # A long session of the viewer: nothing is lost under the address sanitizer, memory is steady without.
 set -eu
 . tests/checks/common.sh
+unset GLIBC_TUNABLES # memory is measured as a user has it
 command -v xvfb-run >/dev/null || {
     echo "skipped: xvfb-run is not installed (packages xvfb, xauth)"
     exit 0
@@ -22,7 +23,7 @@ if [ -n "$sanitizer" ]; then
     exit 0
 fi
 
-# memory NUMBER: kilobytes of the viewer once it has shown so many frames
+# memory NUMBER: prints the viewer's kilobytes once it has shown that many frames.
 memory() {
     while kill -0 $viewer 2>/dev/null; do
         shown=$(sed -n 's/.*"frame":[^0-9]*\([0-9]*\).*/\1/p' "$WORK/state" 2>/dev/null || true)

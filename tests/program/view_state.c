@@ -15,9 +15,9 @@ static void orbiting_keeps_the_target_and_the_distance(void **unused) {
     const double reach = distance(before.eye, before.target);
     at(300, 200);
     button(VIEW_PRESS, VIEW_LEFT, false);
-    at(400, 1500); /* far enough to go over the pole, if that were let */
+    at(400, 1500); /* far enough to pass the pole, if that were possible */
     button(VIEW_RELEASE, VIEW_LEFT, false);
-    at(0, 0); /* and no further */
+    at(0, 0); /* but no further */
     const scene_camera *after = &state.now.camera;
     assert_memory_equal(before.target, after->target, sizeof before.target);
     CHECK_NEAR(reach, distance(after->eye, after->target), 1e-3);
@@ -97,7 +97,7 @@ static void rays_go_where_points_are_projected(void **unused) {
     check_ray();
 }
 
-/* Parallel rays: what is far is as large, and zooming changes the height. */
+/* With parallel rays distant things are as large, and zooming changes the height. */
 static void parallel_rays_pan_zoom_and_frame(void **unused) {
     (void)unused;
     scene_camera *camera = &state.now.camera;
@@ -164,11 +164,11 @@ static void files_become_materials_where_they_are_dropped(void **unused) {
     key("t");
     key("T");
     assert_string_equal(view_material_of(&state.now, name), "ggx:0.3");
-    key("t"); /* past the dropped one: as the scene has it */
+    key("t"); /* past the dropped material: the scene's own */
     assert_null(view_material_of(&state.now, name));
     assert_int_equal(state.now.material_count, 0);
     at(1, 1);
-    state.now.camera.target[1] += 1000; /* the sky */
+    state.now.camera.target[1] += 1000; /* toward the sky */
     view_handle(&state, &(view_event) { .kind = VIEW_DROP, .text = "ggx:0.3" });
     assert_int_equal(state.now.material_count, 0);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion field: its files, read by cJSON, by lines of CSV, by NumPy's specification and by the
- * library, hold the same numbers; and what engines' shaders make of them is the light there is. */
+/* lampion field: its files, read by jansson, as lines of CSV, by NumPy's specification and by the
+ * library, hold the same numbers; and engines' shaders find the light of the scene in them. */
 #include "tests/program/volume.h"
 #include "tests/oracle/engines.h"
 
@@ -14,8 +14,8 @@ static const lmp_light lights[] = {
 };
 enum { LIGHTS = sizeof lights / sizeof *lights };
 
-/* Runs `lampion field` of a wall that is at x = 1.5 from z = -9 to 0.5, with arguments for the
- * shell; its status. */
+/* Runs `lampion field` with arguments for the shell on a scene with a wall at x = 1.5 from z = -9
+ * to 0.5; returns its status. */
 static int field(const char *arguments) {
     char command[1024];
     snprintf(command, sizeof command,
@@ -28,14 +28,15 @@ static int field(const char *arguments) {
 
 /* --- what they hold --------------------------------------------------------------------------- */
 
-/* The scene's own position of a node, and in it what the lights reflect off a white surface. */
+/* Finds the position of a node in the scene. */
 static void node_position(int i, double position[3]) {
     position[0] = -2 + i % NX;
     position[1] = 0.75 * (i / NX % NY);
     position[2] = -1 + i / NX / NY;
 }
 
-/* Of three bands, or exactly, where all lights are above the surface: false elsewhere. */
+/* Sums what the lights reflect off a white surface, by three bands or exactly; returns false where
+ * the exact form does not hold, because a light is not wholly above the surface. */
 static bool reflects(const double at[3], const double n[3], int c, bool exact, double *sum) {
     *sum = 0;
     for (int k = 0; k < LIGHTS; k++) {
@@ -69,9 +70,9 @@ static void expect_positions(const probes *p, lmp_probe_engine engine) {
 static void shaders_of_engines_light_surfaces_as_the_lights_do(void **state) {
     (void)state;
     static probes p;
-    for (int e = 0; e < LMP_PROBE_ENGINES; e++) {
+    for (int e = 0; e < LMP_PROBE_ENGINE_COUNT; e++) {
         const lmp_probe_engine engine = (lmp_probe_engine)e;
-        const char *name = lmp_probe_format_of(engine)->name;
+        const char *name = lmp_probe_engine_format(engine)->name;
         char arguments[128];
         snprintf(arguments, sizeof arguments, "--preset %s -o probes.json", name);
         assert_int_equal(field(arguments), 0);
@@ -94,7 +95,8 @@ static void shaders_of_engines_light_surfaces_as_the_lights_do(void **state) {
     }
 }
 
-/* The least that a probe's shader finds in many directions, in parts of the most. */
+/* Returns the least value that a probe's shader finds in many directions, relative to the largest.
+ */
 static double darkest(lmp_probe_engine engine, const float *values) {
     double least = HUGE_VAL, most = 0;
     for (int i = 0; i < 3 * 2000; i++) {
@@ -112,10 +114,10 @@ static void no_shader_finds_less_than_darkness_where_ringing_is_gone(void **stat
     static probes p;
     folder_write_text("one.json", "{ \"lights\": [ { \"position\": [3, 4, 1], \"radius\": 0.1, "
                                   "\"radiance\": [9, 4, 1] } ] }");
-    for (int e = 0; e < LMP_PROBE_ENGINES; e++)
+    for (int e = 0; e < LMP_PROBE_ENGINE_COUNT; e++)
         for (int damped = 0; damped < 2; damped++) {
             const lmp_probe_engine engine = (lmp_probe_engine)e;
-            const char *name = lmp_probe_format_of(engine)->name;
+            const char *name = lmp_probe_engine_format(engine)->name;
             char arguments[128];
             snprintf(arguments, sizeof arguments, "--lights one.json --preset %s %s -o probes.json",
                      name, damped ? "--dering" : "");
@@ -220,21 +222,21 @@ static void the_library_reads_its_field(void **state) {
     read_json("probes.json", "lampion", &p);
     assert_int_equal(field("-o probes.lmpf"), 0);
     const char *bytes = read_text("probes.lmpf", &size);
-    assert_int_equal(lmp_field_read(NULL, bytes, size, &read), LMP_OK);
+    assert_int_equal(lmp_field_read(NULL, bytes, size, NULL, &read), LMP_OK);
     assert_int_equal(lmp_field_describe(read).light_count, LIGHTS);
     for (int i = 0; i < PROBES; i++) {
         double at[3];
         float sh[27];
         node_position(i, at);
         const lmp_vec3 point = { (float)at[0], (float)at[1], (float)at[2] };
-        lmp_field_eval_n(read, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, sh);
+        lmp_field_eval_n(read, lmp_vec3_array_same(&point), 1, lmp_sh_interleaved(sh, 0));
         for (int k = 0; k < 27; k++)
             CHECK_WITHIN(fabsf(p.values[i][k] - sh[k]), 1e-5);
     }
     lmp_field_destroy(read);
 }
 
-/* Runs `lampion info` with arguments for the shell; its status. */
+/* Runs `lampion info` with arguments for the shell; returns its status. */
 static int info(const char *arguments) {
     char command[512];
     snprintf(command, sizeof command, "cd '%s' && \"$LAMPION_PROGRAM\" info %s >out 2>err", folder,
@@ -255,15 +257,15 @@ static void info_tells_what_a_field_holds(void **state) {
     assert_non_null(strstr(text, "bands      4\n"));
     assert_non_null(strstr(text, "lights     2: 2 sphere ("));
     assert_int_equal(info("--json told.lmpf"), 0);
-    cJSON *root = cJSON_Parse(read_text("out", &size));
-    const cJSON *nodes = cJSON_GetObjectItemCaseSensitive(root, "nodes");
-    const cJSON *maximum = cJSON_GetObjectItemCaseSensitive(root, "maximum");
+    json_t *root = json_loads(read_text("out", &size), 0, NULL);
+    json_t *nodes = json_object_get(root, "nodes");
+    json_t *maximum = json_object_get(root, "maximum");
     assert_int_equal((int)number_at(nodes, 0), NX);
     assert_int_equal((int)number_at(nodes, 2), NZ);
     assert_true(number_at(maximum, 1) == 1.5);
     assert_string_equal(text_of(root, "layout"), "interleaved");
     assert_string_equal(text_of(root, "precision"), "float");
-    cJSON_Delete(root);
+    json_decref(root);
     assert_int_equal(info("--materials told.lmpf"), 2);
     assert_int_equal(info("missing.lmpf"), 1);
     char *bytes = read_text("told.lmpf", &size);
@@ -278,9 +280,8 @@ static void info_tells_what_a_field_holds(void **state) {
 
 /* --- shadows ---------------------------------------------------------------------------------- */
 
-/* The wall ends at z = 0.5: it hides the first light from the probes whose rays to it all cross
- * x = 1.5 below that, and not at all where they cross above; the second stands on the other side.
- */
+/* The wall ends at z = 0.5: it hides the first light from the probes whose rays to it all cross x =
+ * 1.5 below that, and not where they all cross above; the second light stands on the other side. */
 static void walls_keep_light_from_probes(void **state) {
     (void)state;
     static probes open, shadowed;
@@ -363,7 +364,7 @@ static void read_at(const double at[3], const double n[3], double rgb[3]) {
     assert_int_equal(pclose(output), 0);
 }
 
-/* What the eight nodes around a point reflect, weighted by how near they are. */
+/* Returns what the eight nodes around a point reflect, weighted by their distance. */
 static double between_nodes(const double at[3], const double n[3], int c) {
     static const double origin[3] = { -2, 0, -1 }, step[3] = { 1, 0.75, 1 };
     double sum = 0;

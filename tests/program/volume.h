@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* volume.h - the files of lampion field, read without the program's code: by cJSON, by lines of CSV
- * and by NumPy's specification. */
+/* volume.h - reads the files of lampion field without the program's code: by jansson, as lines of
+ * CSV and by NumPy's specification. */
 #ifndef LAMPION_TESTS_PROGRAM_VOLUME_H
 #define LAMPION_TESTS_PROGRAM_VOLUME_H
 
 #include "tests/program/folder.h"
 
-#include <cjson/cJSON.h>
+#include <jansson.h>
 #include <math.h>
 
 enum { NX = 4, NY = 3, NZ = 5, PROBES = NX * NY * NZ, VALUES_MAX = 75 };
 #define GRID "--grid 4x3x5 --minimum -2,0,-1 --maximum 1,1.5,3 "
 
-/* One probe after the other, whatever the file. */
+/* The probes of a file, one after the other, whatever its format. */
 typedef struct probes {
     double position[PROBES][3];
     float values[PROBES][VALUES_MAX];
@@ -30,22 +30,22 @@ static inline char *read_text(const char *name, size_t *size) {
     return bytes;
 }
 
-static inline double number_at(const cJSON *array, int i) {
-    const cJSON *item = cJSON_GetArrayItem(array, i);
-    assert_true(cJSON_IsNumber(item));
-    return item->valuedouble;
+static inline double number_at(json_t *array, int i) {
+    json_t *item = json_array_get(array, (size_t)i);
+    assert_true(json_is_number(item));
+    return json_number_value(item);
 }
 
-static inline const char *text_of(const cJSON *root, const char *name) {
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(root, name);
-    assert_true(cJSON_IsString(item));
-    return item->valuestring;
+static inline const char *text_of(json_t *root, const char *name) {
+    json_t *item = json_object_get(root, name);
+    assert_true(json_is_string(item));
+    return json_string_value(item);
 }
 
-static inline void read_json_grid(const cJSON *root, probes *p) {
-    const cJSON *counts = cJSON_GetObjectItemCaseSensitive(root, "counts");
-    const cJSON *origin = cJSON_GetObjectItemCaseSensitive(root, "origin");
-    const cJSON *steps = cJSON_GetObjectItemCaseSensitive(root, "steps");
+static inline void read_json_grid(json_t *root, probes *p) {
+    json_t *counts = json_object_get(root, "counts");
+    json_t *origin = json_object_get(root, "origin");
+    json_t *steps = json_object_get(root, "steps");
     const int expected[3] = { NX, NY, NZ };
     for (int a = 0; a < 3; a++)
         assert_int_equal((int)number_at(counts, a), expected[a]);
@@ -54,32 +54,31 @@ static inline void read_json_grid(const cJSON *root, probes *p) {
         for (int k = 0; k < 3; k++) {
             p->position[i][k] = number_at(origin, k);
             for (int a = 0; a < 3; a++)
-                p->position[i][k] += node[a] * number_at(cJSON_GetArrayItem(steps, a), k);
+                p->position[i][k] += node[a] * number_at(json_array_get(steps, (size_t)a), k);
         }
     }
 }
 
-/* The schema is that of docs/formats.md. */
+/* Reads JSON by the schema in docs/formats.md. */
 static inline void read_json(const char *name, const char *preset, probes *p) {
     size_t size;
-    cJSON *root = cJSON_Parse(read_text(name, &size));
+    json_t *root = json_loads(read_text(name, &size), 0, NULL);
     assert_non_null(root);
     assert_string_equal(text_of(root, "format"), "lampion-probes");
     assert_string_equal(text_of(root, "preset"), preset);
-    assert_int_equal((int)cJSON_GetObjectItem(root, "version")->valuedouble, 1);
+    assert_int_equal((int)json_number_value(json_object_get(root, "version")), 1);
     const bool planar = strcmp(text_of(root, "layout"), "planar") == 0;
-    const cJSON *values = cJSON_GetObjectItemCaseSensitive(root, "values");
-    p->value_count = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(root, "names"));
+    json_t *values = json_object_get(root, "values");
+    p->value_count = (int)json_array_size(json_object_get(root, "names"));
     assert_true(p->value_count > 0 && p->value_count <= VALUES_MAX);
-    assert_int_equal(cJSON_GetArraySize(values), PROBES * p->value_count);
+    assert_int_equal(json_array_size(values), PROBES * p->value_count);
     read_json_grid(root, p);
-    int at = 0;
-    for (const cJSON *item = values->child; item; item = item->next, at++)
+    for (int at = 0; at < PROBES * p->value_count; at++)
         if (planar)
-            p->values[at % PROBES][at / PROBES] = (float)item->valuedouble;
+            p->values[at % PROBES][at / PROBES] = (float)number_at(values, at);
         else
-            p->values[at / p->value_count][at % p->value_count] = (float)item->valuedouble;
-    cJSON_Delete(root);
+            p->values[at / p->value_count][at % p->value_count] = (float)number_at(values, at);
+    json_decref(root);
 }
 
 static inline void read_csv(const char *name, probes *p) {
@@ -105,7 +104,7 @@ static inline void read_csv(const char *name, probes *p) {
     assert_null(strtok(NULL, "\n"));
 }
 
-/* IEEE 754 binary16. */
+/* Converts an IEEE 754 binary16. */
 static inline float half_value(const unsigned char *at) {
     const int bits = at[0] | at[1] << 8, exponent = bits >> 10 & 31, mantissa = bits & 1023;
     const double size =
@@ -113,7 +112,7 @@ static inline float half_value(const unsigned char *at) {
     return (float)(bits & 0x8000 ? -size : size);
 }
 
-/* NumPy's format, version 1.0: 6 bytes, 2 of the version, the length of a line, the line. */
+/* Reads NumPy's format, version 1.0: 6 bytes, 2 of the version, the length of a line, the line. */
 static inline void read_npy(const char *name, bool half, bool planar, probes *p) {
     size_t size;
     const unsigned char *bytes = (const unsigned char *)read_text(name, &size);

@@ -8,7 +8,7 @@ for tool in xvfb-run xdotool; do
     }
 done
 
-# until_true WHAT COMMAND…: waits for the command to succeed, $tries tenths of a second at most.
+# until_true WHAT COMMAND…: waits for the command to succeed, for $tries tenths of a second at most.
 until_true() {
     what=$1
     shift

@@ -4,7 +4,7 @@
 set -eu
 . tests/checks/common.sh
 
-# libraries of these names that are none: whoever opens them fails
+# Files of these names are not libraries: opening them as such fails.
 mkdir "$WORK/refused"
 for library in libEGL.so.1 libGL.so.1 libOpenGL.so.0 libGLX.so.0 libgbm.so.1; do
     echo "not a library" >"$WORK/refused/$library"
@@ -18,7 +18,7 @@ if "$PROGRAM" render builtin:ball --size 8x8 --device gpu -o "$WORK/gpu.png" 2>"
     fail "the GPU's device drew without OpenGL"
 fi
 
-# a square with a coat and a sheen before one that blends, under a sky
+# A square with a coat and a sheen stands before one that blends, under a sky.
 cat >"$WORK/layers.gltf" <<'JSON'
 {"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
 "extensionsUsed":["KHR_materials_clearcoat","KHR_materials_sheen"],
@@ -43,7 +43,7 @@ for method in coefficients preintegrated field; do
     "$PROGRAM" compare "$WORK/atrium-zonal.png" "$WORK/atrium-$method.png" --fail-above rmse=0.02 >/dev/null ||
         fail "$method draws another image"
 done
-# without --device, where no GPU is found, nothing else is needed
+# Without --device, where no GPU is found, nothing else is needed.
 "$PROGRAM" render builtin:ball --size 8x8 -o "$WORK/auto.png"
 LD_DEBUG=files "$PROGRAM" render builtin:ball --size 8x8 --device cpu -o "$WORK/quiet.png" 2>"$WORK/loaded"
 if grep -Eq 'file=lib(EGL|GL|OpenGL|GLX|gallium)[^ ]*.so' "$WORK/loaded"; then

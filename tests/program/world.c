@@ -2,14 +2,15 @@
 /* Coordinates of the world, in double, and those of a scene, relative to its origin. */
 #include "app/scene/world.h"
 
-#include "app/animation/animation.h"
-#include "app/file/file.h"
+#include "app/base/error.h"
+#include "app/base/file_json.h"
+#include "app/scene/animation.h"
 #include "app/scene/instance.h"
 #include "app/view/settings.h"
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
 
-#include <cjson/cJSON.h>
+#include <jansson.h>
 #include <math.h>
 
 static const double far[3] = { 5e6, 100, -5e6 };
@@ -42,8 +43,8 @@ static void a_point_stays_where_it_is_by_another_origin(void **state) {
     assert_true(point[0] == 0.5f && point[1] == -0.25f && point[2] == 3);
 }
 
-/* Any float as it was by %.9g without an origin, and with one to the bit as far as a double tells.
- */
+/* Without an origin any float survives as by %.9g, and with one to the bit as far as a double can
+ * tell. */
 static void text_brings_coordinates_back(void **state) {
     (void)state;
     for (int i = 0; i < 20000; i++) {
@@ -98,7 +99,7 @@ static void assert_corner(const scene *s, size_t vertex, float x, float y, float
         fail_msg("%g %g %g", (double)p[0], (double)p[1], (double)p[2]);
 }
 
-/* Numbers as text have more digits than float32: none is lost to where the scene is. */
+/* Numbers as text have more digits than float32: none is lost to the scene's position. */
 static void an_obj_far_away_keeps_its_digits(void **state) {
     (void)state;
     folder_write_text("far.obj", "v 5000000.125 100 -5000000\nv 5000001.0625 100 -5000000\n"
@@ -111,7 +112,8 @@ static void an_obj_far_away_keeps_its_digits(void **state) {
     scene_free(&s);
 }
 
-/* Of a model smaller than the distance of two floats there, the first reading sees a point. */
+/* The model is smaller than the distance between two floats there, so the first reading sees a
+ * point. */
 static void a_tiny_model_far_away_has_a_size(void **state) {
     (void)state;
     folder_write_text("tiny.obj", "v 1e9 0 0\nv 1000000000.5 0 0\nv 1e9 0.25 0\nf 1 2 3\n");
@@ -125,7 +127,7 @@ static void a_tiny_model_far_away_has_a_size(void **state) {
 static void a_scene_far_away_stands_up(void **state) {
     (void)state;
     scene s;
-    cli_error error;
+    base_error error;
     folder_write_text("up.obj", "v 0 4096 1024\nv 4 4096 1024\nv 0 4096 1028\nf 1 2 3\n");
     assert_true(scene_load(in_folder("up.obj"),
                            &(scene_options) { .up = SCENE_UP_Z, .no_cache = true }, &s, &error));
@@ -138,7 +140,7 @@ static void a_scene_far_away_stands_up(void **state) {
     scene_free(&s);
 }
 
-/* A node of a node, by Assimp: 5e6 and 0.0625, which float32 could not add. */
+/* A node of a node, read by Assimp: 5e6 and 0.0625, which float32 could not add. */
 static void nodes_that_assimp_reads_are_added_in_double(void **state) {
     (void)state;
     folder_write_text(
@@ -161,8 +163,8 @@ static void nodes_that_assimp_reads_are_added_in_double(void **state) {
     scene_free(&s);
 }
 
-/* A file's own float32 far away, which two nodes show: the mesh is moved to 0, its instances back.
- */
+/* The file's own float32 are far away, and two nodes show them: the mesh is moved to 0, its
+ * instances back. */
 static void vertices_far_away_are_near_0_in_their_mesh(void **state) {
     (void)state;
     static const float corners[3][3] = { { 5e6f, 100, -5e6f },
@@ -200,7 +202,7 @@ static void lights_are_read_and_written_in_the_world(void **state) {
         "{\"kind\":\"directional\",\"direction\":[0,1,0],\"irradiance\":1}]}";
     scene_light lights[2], again[2];
     size_t count;
-    cli_error error;
+    base_error error;
     folder_write_text("lights.json", text);
     assert_true(scene_read_lights(in_folder("lights.json"), far, 2, lights, &count, &error));
     const lmp_vec3 p = lights[0].emitter.position;
@@ -217,7 +219,7 @@ static void paths_are_in_the_world(void **state) {
     scene_light light = { .emitter = { .position = { 1, 2, 0 }, .radius = 0.1f } }, moved;
     scene s = { .lights = &light, .light_count = 1, .origin = { 5e6, 100, -5e6 } };
     animation *all;
-    cli_error error;
+    base_error error;
     folder_write_text("keys.json", "{\"paths\":[{\"light\":0,\"keys\":[[0,5000001,102,-5000000],"
                                    "[2,5000003.5,103,-5000001]]}]}");
     assert_true(animation_open(in_folder("keys.json"), &s, &all, &error));
@@ -239,12 +241,12 @@ static void paths_are_in_the_world(void **state) {
     CHECK_WITHIN(fabsf(moved.emitter.position.y - 1.1f), 1e-6);
 }
 
-/* Of a screenshot: the same to the bit, and after its scene has got another origin the same place.
- */
+/* The settings of a screenshot are the same to the bit, and denote the same position after its
+ * scene has another origin. */
 static void settings_are_written_in_the_world(void **state) {
     (void)state;
     static view_settings made, read;
-    cli_error error;
+    base_error error;
     made = (view_settings) { .scene = "far.gltf",
                              .width = 16,
                              .height = 9,
@@ -259,16 +261,16 @@ static void settings_are_written_in_the_world(void **state) {
                              .light_count = 1 };
     made.shading[0].bands = made.shading[1].bands = 3;
     made.lights[0].emitter = (lmp_light) { .position = { 0.7f, 1, 2 }, .radius = 0.1f };
-    cJSON *root = view_settings_to_json(&made);
-    const cJSON *const eye = file_json_member(file_json_member(root, "camera"), "eye");
-    char *text = cJSON_PrintUnformatted(eye);
+    json_t *root = view_settings_to_json(&made);
+    json_t *const eye = json_object_get(json_object_get(root, "camera"), "eye");
+    char *text = file_json_text(json_incref(eye), false, "made", &error);
     assert_string_equal(text, "[5000000.1,100.2,-4999999.7]");
-    cJSON_free(text);
+    free(text);
     text = file_json_text(root, false, "made", &error);
     root = file_parse_json("made", text, strlen(text), &error);
     assert_true(view_settings_from_json(root, "made", &read, &error));
     assert_memory_equal(&made, &read, sizeof made);
-    cJSON_Delete(root);
+    json_decref(root);
     free(text);
     view_settings_rebase(&read, (double[]) { 5000008, 96, -5e6 });
     assert_true(read.origin[0] == 5000008);
@@ -286,7 +288,7 @@ static void the_camera_s_options_are_in_the_world(void **state) {
                                      .target_given = true };
     const int size[2] = { 16, 9 };
     scene_camera camera;
-    cli_error error;
+    base_error error;
     memcpy(s.origin, far, sizeof s.origin);
     assert_true(scene_place_camera(&s, &options, size, &camera, &error));
     assert_true(camera.eye[0] == 1.25f && camera.eye[1] == 1 && camera.eye[2] == 2);

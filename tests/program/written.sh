@@ -8,7 +8,7 @@ temporaries() {
     find "$WORK" -name '.lampion-*' | wc -l
 }
 
-# refuses TEXT COMMAND…: fails with one line that says TEXT, and leaves no temporary.
+# refuses TEXT COMMAND…: the command must fail with one line that contains TEXT, and leave no temporary file.
 refuses() {
     text=$1
     shift
@@ -76,7 +76,7 @@ tries=8
 for signal in INT TERM KILL; do
     cp old.exr image.exr
     for i in $(seq $tries); do
-        # in a shell of its own, for background commands ignore SIGINT
+        # In a shell of its own, because background commands ignore SIGINT.
         timeout --signal=$signal --preserve-status "0.0$((i * 7 % 90 + 10))" "$PROGRAM" basis --bands 3 \
             --size 256x256 -o image.exr 2>/dev/null || true
         cmp -s old.exr image.exr || cmp -s new.exr image.exr || fail "SIG$signal left a part of a file"

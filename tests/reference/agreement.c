@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The image that the GPU shades by lobes against the ground truth of GGX in as many bands. */
-#include "app/reference/light.h"
-#include "app/reference/reference.h"
-#include "app/reference/trace.h"
 #include "app/render/gl/gpu.h"
+#include "app/truth/reference.h"
+#include "app/truth/reference_light.h"
+#include "app/truth/reference_trace.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/kinds.h"
 
@@ -15,13 +15,13 @@ enum { WIDTH = 120, HEIGHT = 80 };
 static image draw_by_harmonics(const scene *world, const reference_settings *settings,
                                render_pixel **pixels, bool *software) {
     gpu_context context;
-    cli_error error;
+    base_error error;
     image drawn;
     const render_frame frame = { .width = WIDTH,
                                  .height = HEIGHT,
                                  .camera = settings->camera,
                                  .method =
-                                     METHOD_COEFFICIENTS, /* truncates the diffuse lobe, too */
+                                     METHOD_COEFFICIENTS, /* truncates the diffuse lobe as well */
                                  .bands = settings->band_limit.bands,
                                  .window = settings->band_limit.window,
                                  .lights = world->lights,
@@ -39,15 +39,16 @@ static image draw_by_harmonics(const scene *world, const reference_settings *set
 }
 
 /* What one pixel shows. */
-typedef struct sight {
+typedef struct pixel_hit {
     render_kind kind;
     reference_vec position, normal;
-} sight;
+} pixel_hit;
 
-static sight seen_by_ray(const scene *world, const reference_tracer *tracer, reference_vec eye,
-                         reference_vec direction) {
+static pixel_hit seen_by_ray(const scene *world, const reference_tracer *tracer, reference_vec eye,
+                             reference_vec direction) {
     const reference_hit hit = reference_tracer_see(tracer, eye, direction);
-    sight s = { isfinite(hit.distance) ? RENDER_SURFACE : RENDER_NONE, hit.position, hit.normal };
+    pixel_hit s = { isfinite(hit.distance) ? RENDER_SURFACE : RENDER_NONE, hit.position,
+                    hit.normal };
     for (size_t i = 0; i < world->light_count; i++) {
         const scene_light *light = &world->lights[i];
         if (scene_light_is_drawn(light) && reference_light_is_hit(light, eye, direction) &&
@@ -59,7 +60,7 @@ static sight seen_by_ray(const scene *world, const reference_tracer *tracer, ref
 
 /* Whether the rasterizer and the ray through the pixel's center found the same piece of surface:
  * along an edge either may be right. */
-static bool same_sight(const render_pixel *pixel, const sight *ray, reference_vec eye) {
+static bool same_surface(const render_pixel *pixel, const pixel_hit *ray, reference_vec eye) {
     if (pixel->kind != ray->kind || ray->kind != RENDER_SURFACE)
         return pixel->kind == ray->kind;
     const lmp_vec3 p = pixel->surface.position, n = pixel->surface.normal;
@@ -69,11 +70,11 @@ static bool same_sight(const render_pixel *pixel, const sight *ray, reference_ve
     return reference_length(reference_subtract(position, ray->position)) <= 1e-3 * distance &&
            reference_dot(normal, ray->normal) >= 0.9999;
 }
-/* What the rays through the pixels' centers meet; free() it. */
-static sight *look(const scene *world, const scene_camera *camera) {
-    sight *sights = malloc(WIDTH * HEIGHT * sizeof *sights);
+/* Finds what the rays through the pixels' centers meet; the caller frees it. */
+static pixel_hit *look(const scene *world, const scene_camera *camera) {
+    pixel_hit *hits = malloc(WIDTH * HEIGHT * sizeof *hits);
     reference_tracer *tracer;
-    cli_error error;
+    base_error error;
     const reference_vec eye = reference_from_floats(camera->eye);
     const reference_vec forward =
         reference_normalize(reference_subtract(reference_from_floats(camera->target), eye));
@@ -82,7 +83,7 @@ static sight *look(const scene *world, const scene_camera *camera) {
     const bool parallel = camera->height > 0;
     const double seen = parallel ? (double)camera->height : 2 * tan((double)camera->fov / 2);
     const double step = seen / HEIGHT;
-    assert_non_null(sights);
+    assert_non_null(hits);
     assert_true(reference_tracer_create(world, &tracer, &error));
     for (int p = 0; p < WIDTH * HEIGHT; p++) {
         const double x = step * (p % WIDTH + 0.5 - WIDTH / 2.0);
@@ -90,16 +91,16 @@ static sight *look(const scene *world, const scene_camera *camera) {
         const reference_vec up = reference_cross(right, forward);
         const reference_vec across =
             reference_add(reference_scale(x, right), reference_scale(y, up));
-        sights[p] = parallel ? seen_by_ray(world, tracer, reference_add(eye, across), forward)
-                             : seen_by_ray(world, tracer, eye,
-                                           reference_normalize(reference_add(forward, across)));
+        hits[p] = parallel ? seen_by_ray(world, tracer, reference_add(eye, across), forward)
+                           : seen_by_ray(world, tracer, eye,
+                                         reference_normalize(reference_add(forward, across)));
     }
     reference_tracer_destroy(tracer);
-    return sights;
+    return hits;
 }
 
-/* Whether a channel differs by more than 5 standard errors and one step of 8 bits: what lobes leave
- * of GGX is less in few bands, but at a silhouette. */
+/* Whether a channel differs by more than 5 standard errors and one step of 8 bits. What lobes leave
+ * of GGX is less than that in few bands, except at a silhouette. */
 static bool differs(const float *drawn, const float *truth, const float *standard_error,
                     double exposure) {
     for (int c = 0; c < 3; c++) {
@@ -110,11 +111,12 @@ static bool differs(const float *drawn, const float *truth, const float *standar
     return false;
 }
 
-/* With `kinds`, a light of each kind instead; with a height, by parallel rays. */
+/* Checks a scene under random lights or, with `kinds`, a light of each kind; with a height, by
+ * parallel rays. */
 static void check_scene(const char *name, int lights, bool kinds, float height,
                         const reference_band_limit *limit) {
     scene world;
-    cli_error error;
+    base_error error;
     image truth, standard_error;
     render_pixel *pixels;
     reference_settings settings = {
@@ -133,20 +135,20 @@ static void check_scene(const char *name, int lights, bool kinds, float height,
     settings.camera.height = height;
     assert_true(reference_render(&world, &settings, &truth, &standard_error, &error));
     image drawn = draw_by_harmonics(&world, &settings, &pixels, &software);
-    sight *sights = look(&world, &settings.camera);
+    pixel_hit *hits = look(&world, &settings.camera);
     const double exposure = (double)image_auto_exposure(&truth);
     for (int p = 0; p < WIDTH * HEIGHT; p++) {
         const bool edge =
-            !same_sight(&pixels[p], &sights[p], reference_from_floats(settings.camera.eye));
+            !same_surface(&pixels[p], &hits[p], reference_from_floats(settings.camera.eye));
         edges += edge;
         different += !edge && differs(&drawn.rgb[3 * p], &truth.rgb[3 * p],
                                       &standard_error.rgb[3 * p], exposure);
     }
     assert_in_range(different, 0, WIDTH * HEIGHT / 2000);
-    /* hardware interpolates between corners that it has moved to 1/256 of a pixel: normals of
-     * triangles smaller than a pixel turn by a degree or two */
+    /* Hardware interpolates between corners that it has moved to 1/256 of a pixel: normals of
+     * triangles smaller than a pixel rotate by a degree or two. */
     assert_in_range(edges, 0, WIDTH * HEIGHT / (software ? 250 : 125));
-    free(sights);
+    free(hits);
     free(pixels);
     image_free(&drawn);
     image_free(&truth);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Seven by seven balls, roughness by metallic, as `render` draws them and as the ground truth has
  * them. LAMPION_IMAGES=FOLDER keeps both images there. */
-#include "app/reference/reference.h"
 #include "app/render/gl/gpu.h"
-#include "app/render/shade/shade.h"
+#include "app/render/shade.h"
+#include "app/truth/reference.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/placed.h"
 
@@ -89,7 +89,7 @@ static void lay_balls(void) {
 
 static image draw(const scene_camera *camera) {
     gpu_context context;
-    cli_error error;
+    base_error error;
     image drawn;
     const render_frame frame = { .width = SIZE,
                                  .height = SIZE,
@@ -97,7 +97,7 @@ static image draw(const scene_camera *camera) {
                                  .bands = LMP_BANDS_MAX,
                                  .lights = balls.lights,
                                  .light_count = 3,
-                                 .host = shade_frame };
+                                 .cpu_shader = shade_frame };
     assert_true(gpu_context_create(check_gl_device(), &context, &error));
     gpu_renderer *renderer = gpu_renderer_create(&context, &balls.world, &error);
     assert_non_null(renderer);
@@ -109,7 +109,7 @@ static image draw(const scene_camera *camera) {
 }
 
 static void keep(const image *pixels, const char *name, float exposure) {
-    cli_error error;
+    base_error error;
     char path[512];
     if (!getenv("LAMPION_IMAGES"))
         return;
@@ -117,8 +117,8 @@ static void keep(const image *pixels, const char *name, float exposure) {
     assert_true(image_write(pixels, path, &(image_display) { .exposure = exposure }, &error));
 }
 
-/* Where both found a ball: outlines are another test's matter. Returns the rms error of a ball, in
- * parts of its brightest pixel, but for what noise explains. */
+/* Returns the rms error of a ball relative to its brightest pixel, beyond what noise explains,
+ * where both images show a ball; outlines are another test's concern. */
 static double error_of_ball(int i, const image *drawn, const image *truth, const image *noise) {
     double squares = 0, variance = 0, peak = 0;
     int count = 0;
@@ -141,7 +141,7 @@ static double error_of_ball(int i, const image *drawn, const image *truth, const
 static void balls_are_drawn_as_the_ground_truth_has_them(void **state) {
     (void)state;
     image truth, noise;
-    cli_error error;
+    base_error error;
     reference_settings settings = {
         .width = SIZE,
         .height = SIZE,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Metrics of hand-made images. */
-#include "app/compare/compare.h"
-#include "app/compare/flip.h"
+#include "app/image/compare.h"
+#include "app/image/flip.h"
 #include "tests/oracle/check.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ typedef struct pair {
     image a, b;
 } pair;
 
-/* Two equal images with values in 0 … 1, the largest of them 1. */
+/* Makes two equal images with values in 0 … 1, of which the largest is 1. */
 static void make_pair(pair *p) {
     for (int i = 0; i < VALUES; i++)
         p->a_values[i] = p->b_values[i] = (float)((i * 37) % 101) / 100;
@@ -25,7 +25,7 @@ static void make_pair(pair *p) {
 
 static compare_result compare(const pair *p, double peak) {
     compare_result result;
-    cli_error error;
+    base_error error;
     assert_true(compare_images(&p->a, &p->b, peak, &result, &error));
     return result;
 }
@@ -95,7 +95,8 @@ static void ssim_of_an_offset_is_the_luminance_term(void **state) {
     assert_true(compare(&p, 1).values[COMPARE_SSIM] < -0.5); /* inverted structure */
 }
 
-/* By its definition, pixel by pixel: a window of 11 x 11, sigma 1.5, cut at the edges; peak 1. */
+/* Computes SSIM by its definition, pixel by pixel: a window of 11 x 11, sigma 1.5, cut at the
+ * edges; peak 1. */
 static double ssim_by_hand(const image *a_image, const image *b_image) {
     const double c1 = 1e-4, c2 = 9e-4;
     const int width = a_image->width, height = a_image->height;
@@ -120,14 +121,15 @@ static double ssim_by_hand(const image *a_image, const image *b_image) {
     return all / (width * height);
 }
 
-/* Gray, for luminance is not judged here; sizes on both sides of those that are taken at once. */
+/* The images are gray, because luminance is not tested here; their sizes lie on both sides of those
+ * that are processed at once. */
 static void ssim_of_noise_is_that_of_its_definition(void **state) {
     (void)state;
     static const int sizes[][2] = { { WIDTH, HEIGHT }, { 1, 1 },   { 3, 63 },  { 5, 64 },
                                     { 4, 65 },         { 17, 70 }, { 2, 133 }, { 90, 3 } };
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         image a, b;
-        cli_error error;
+        base_error error;
         compare_result result;
         assert_true(image_create(&a, sizes[k][0], sizes[k][1], &error));
         assert_true(image_create(&b, sizes[k][0], sizes[k][1], &error));
@@ -161,7 +163,7 @@ static void different_sizes_are_refused(void **state) {
     (void)state;
     pair p;
     compare_result result;
-    cli_error error;
+    base_error error;
     make_pair(&p);
     p.b.height--;
     assert_false(compare_images(&p.a, &p.b, 0, &result, &error));
@@ -232,7 +234,7 @@ static void flip_of_flat_images_is_that_of_their_colors(void **state) {
     assert_true(flip == 0);
 }
 
-/* A color of the display as L*a*b*, D65, with Hunt's adjustment. */
+/* Converts a display color to L*a*b*, D65, with Hunt's adjustment. */
 static void lab_of(const float rgb[3], double lab[3]) {
     static const double from_rgb[3][3] = { { 0.4124564, 0.3575761, 0.1804375 },
                                            { 0.2126729, 0.7151522, 0.0721750 },
@@ -260,8 +262,8 @@ static double color_distance(const float a[3], const float b[3]) {
     return fabs(u[0] - v[0]) + hypot(u[1] - v[1], u[2] - v[2]);
 }
 
-/* The scale of the paper: 0.95 of it for 0.4 of the distance between green and blue, the largest.
- */
+/* Returns the paper's scale of a distance: 0.95 for 0.4 of the distance between green and blue, the
+ * largest. */
 static double color_part(double distance) {
     const float green[3] = { 0, 1, 0 }, blue[3] = { 0, 0, 1 };
     const double part = pow(distance / color_distance(green, blue), 0.7);
@@ -288,8 +290,8 @@ static void flip_of_two_colors_is_their_distance(void **state) {
     }
 }
 
-/* The paper's kernels in two dimensions, 67.02 pixels a degree: where k is 0 the eye's sharpness,
- * then an edge and a point, across or along. */
+/* Returns the paper's kernels in two dimensions, 67.02 pixels a degree: where k is 0 the eye's
+ * sharpness, then an edge and a point, across or along. */
 static double kernel_at(int k, double x, double y) {
     const double pi = acos(-1), sigma = 0.5 * 0.082 * 67.02, square = sigma * sigma;
     const double degrees2 = (x * x + y * y) / (67.02 * 67.02);
@@ -301,8 +303,8 @@ static double kernel_at(int k, double x, double y) {
     return k < 3 ? -along * g : (along * along / square - 1) * g;
 }
 
-/* What a gray image is at a pixel through a kernel whose positive and negative weights sum to 1;
- * it goes on past its sides. */
+/* Returns a gray image at a pixel through a kernel whose positive and negative weights sum to 1;
+ * the image continues past its sides. */
 static double filtered(const double *gray, int x, int y, int k) {
     double sums[2] = { 0, 0 }, weights[2] = { 0, 0 };
     for (int j = -10; j <= 10; j++)
@@ -316,15 +318,16 @@ static double filtered(const double *gray, int x, int y, int k) {
     return sums[0] / weights[0] + (weights[1] > 0 ? sums[1] / weights[1] : 0);
 }
 
-typedef struct sight {
+typedef struct flip_features {
     double lightness, edge, point;
-} sight;
+} flip_features;
 
-static sight sight_of(const double *gray, int x, int y) {
+static flip_features features_of(const double *gray, int x, int y) {
     const double t = filtered(gray, x, y, 0);
-    return (sight) { 116 * (t > 216.0 / 24389 ? cbrt(t) : (24389.0 / 27 * t + 16) / 116) - 16,
-                     hypot(filtered(gray, x, y, 1), filtered(gray, x, y, 2)),
-                     hypot(filtered(gray, x, y, 3), filtered(gray, x, y, 4)) };
+    return (flip_features) { 116 * (t > 216.0 / 24389 ? cbrt(t) : (24389.0 / 27 * t + 16) / 116) -
+                                 16,
+                             hypot(filtered(gray, x, y, 1), filtered(gray, x, y, 2)),
+                             hypot(filtered(gray, x, y, 3), filtered(gray, x, y, 4)) };
 }
 
 static void flip_of_gray_images_is_that_of_its_definition(void **state) {
@@ -340,8 +343,8 @@ static void flip_of_gray_images_is_that_of_its_definition(void **state) {
         for (int k = 0; k < 2; k++)
             gray[k][i] = pow(((double)(k ? p.b_values : p.a_values)[3 * i] + 0.055) / 1.055, 2.4);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        const sight a = sight_of(gray[0], i % WIDTH, i / WIDTH);
-        const sight b = sight_of(gray[1], i % WIDTH, i / WIDTH);
+        const flip_features a = features_of(gray[0], i % WIDTH, i / WIDTH);
+        const flip_features b = features_of(gray[1], i % WIDTH, i / WIDTH);
         const double feature = fmax(fabs(a.edge - b.edge), fabs(a.point - b.point));
         expected += pow(color_part(fabs(a.lightness - b.lightness)), 1 - sqrt(feature / sqrt(2)));
     }
@@ -349,7 +352,7 @@ static void flip_of_gray_images_is_that_of_its_definition(void **state) {
     CHECK_WITHIN(fabs(flip - expected / (WIDTH * HEIGHT)), 1e-4);
 }
 
-/* A line of another gray is more than its color: what an edge adds does not vanish with the
+/* A line of another gray differs by more than its color: what an edge adds does not vanish with the
  * difference of lightness, and both grow. */
 static void flip_grows_with_a_line_in_a_gray_image(void **state) {
     (void)state;
@@ -373,7 +376,7 @@ static void flip_grows_with_a_line_in_a_gray_image(void **state) {
 static void what_is_shown_is_judged(void **state) {
     (void)state;
     pair p;
-    cli_error error;
+    base_error error;
     make_pair(&p);
     compare_result r = compare(&p, 1);
     assert_true(isnan(r.values[COMPARE_SHOWN]) && isnan(r.values[COMPARE_FLIP]));

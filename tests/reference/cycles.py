@@ -33,7 +33,7 @@ def read_obj(path):
     return vertices, [[int(corner.split("/")[0]) - 1 for corner in w[1:]] for w in words if w[0] == "f"]
 
 
-# Triangles whose surface is as large as that of a sphere; so is, in the mean, what they cover.
+# Triangles have the same surface as a sphere, and so cover the same in the mean.
 def add_sphere(center, radius, material):
     shape = bmesh.new()
     bmesh.ops.create_icosphere(shape, subdivisions=6, radius=1)

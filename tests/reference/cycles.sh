@@ -15,14 +15,14 @@ cat >lights.json <<'END'
               { "position": [ 4.4, 1.5, 0.1 ], "radius": 0.8, "radiance": [ 6, 6, 9 ] } ] }
 END
 
-# plate NAME ROUGHNESS: of white metal
+# plate NAME ROUGHNESS: writes a plate of white metal.
 plate() {
     printf 'newmtl white\nKd 1 1 1\nPm 1\nPr %s\n' "$2" >"$1.mtl"
     printf '%s\n' "mtllib $1.mtl" 'usemtl white' 'v -4 -3 0' 'v 4 -3 0' 'v 4 3 0' 'v -4 3 0' 'vn 0 0 1' \
         'f 1//1 2//1 3//1 4//1' >"$1.obj"
 }
 
-# a box over the plate
+# A box stands over the plate.
 plate shadow 1
 for z in 0.3 0.8; do printf "v %s $z\n" '-0.5 -0.4' '0.5 -0.4' '0.5 0.4' '-0.5 0.4'; done >>shadow.obj
 printf '%s\n' 'vn 0 0 -1' 'vn 0 -1 0' 'vn 1 0 0' 'vn 0 1 0' 'vn -1 0 0' 'f 9//1 10//1 11//1 12//1' \
@@ -53,5 +53,5 @@ while [ $# -gt 0 ]; do
 done
 [ -z "$bad" ] || fail "Cycles shows something else:$bad"
 
-# and what is not the same would be seen
+# A difference must be found.
 ! "$BUILD/tests/reference/judge_seeds" ggx-0.6.exr ggx-0.4-[0-9]*.exr >/dev/null || fail "another roughness goes unseen"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Ambient light: closed forms, and the library's sums of the same image truncated to bands. */
-#include "app/reference/estimate.h"
+#include "app/truth/reference_estimate.h"
 #include "tests/oracle/check.h"
 
 #include <lampion/shade.h>
@@ -11,7 +11,7 @@ enum { WIDTH = 16, HEIGHT = 8 };
 
 static environment around(float even) {
     environment e = { .azimuth = 0.7f };
-    cli_error error;
+    base_error error;
     assert_true(image_create(&e.light, WIDTH, HEIGHT, &error));
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
         e.light.rgb[i] = even > 0 ? even : powf((float)check_random(), 8) * 20;
@@ -52,11 +52,11 @@ static void an_even_light_is_reflected_by_the_albedo(void **state) {
     environment_free(&e);
 }
 
-/* Lobes truncated to bands see the image's coefficients alone. */
+/* Lobes truncated to bands depend only on the image's coefficients. */
 static void truncated_lobes_agree_with_the_library(void **state) {
     (void)state;
     environment e = around(0);
-    cli_error error;
+    base_error error;
     const reference_band_limit limit = { .bands = 6, .window = LMP_WINDOW_HANNING };
     const lmp_material material = { .diffuse = { 0.5f, 0.25f, 0.125f },
                                     .specular = { 0.25f, 0.5f, 0.75f },
@@ -76,14 +76,15 @@ static void truncated_lobes_agree_with_the_library(void **state) {
         const lmp_rgb color = lmp_shade_environment(&settings, &material, &same, &light);
         for (int c = 0; c < 3; c++) {
             const double value = (double)(&color.r)[c];
-            /* Coefficients are of the pixels' middles: some thousandths. */
+            /* Coefficients take pixels at their centers, which differs by some thousandths. */
             CHECK_WITHIN(fabs(result.mean[c] - value), 5 * result.standard_error[c] + 0.02 * value);
         }
     }
     environment_free(&e);
 }
 
-/* Drawn directions are as frequent as their density says: its reciprocal's mean is the sphere. */
+/* Directions are drawn as often as their density says: the mean of its reciprocal is the whole
+ * sphere. */
 static void directions_are_drawn_by_their_density(void **state) {
     (void)state;
     environment e = around(0);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The ground truth itself: Monte Carlo and quadrature against closed forms and each other. */
-#include "app/reference/estimate.h"
-#include "app/reference/quadrature.h"
+#include "app/truth/reference_estimate.h"
+#include "app/truth/reference_quadrature.h"
 #include "tests/oracle/check.h"
 
 #include <lampion/shade.h>
@@ -41,7 +41,7 @@ static reference_result estimate(const reference_surface *surface, const scene_l
     return result;
 }
 
-/* Three standard errors, and rounding where there is no noise. */
+/* Checks a result to three standard errors, and to rounding where there is no noise. */
 static void check_result(const reference_result *result, const double truth[3]) {
     for (int c = 0; c < 3; c++)
         CHECK_WITHIN(fabs(result->mean[c] - truth[c]),
@@ -154,8 +154,8 @@ static void monte_carlo_equals_quadrature_for_many_lights(void **state) {
     CHECK_WITHIN((double)outside / values, 0.12);
 }
 
-/* Root mean square error over 256 streams, at 4 octaves of samples: each must be the last over
- * sqrt 2, and what the standard error says. A bias would make the curve flatten. */
+/* Computes the root mean square error over 256 streams at 4 octaves of samples: each must be the
+ * one before over sqrt 2, and what the standard error says. A bias would flatten the curve. */
 static void the_error_falls_as_one_over_the_root_of_the_samples(void **state) {
     (void)state;
     const reference_material material = { { 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 }, 50 };
@@ -213,7 +213,7 @@ static void sampling_stops_at_the_wanted_error(void **state) {
     assert_in_range(result.samples, 16, 50000);
 }
 
-/* lambda_l = 2 pi ∫ k(t) P_l(t) dt. */
+/* Integrates lambda_l = 2 pi ∫ k(t) P_l(t) dt. */
 typedef struct moment {
     const reference_lobe *lobe;
     int degree;
@@ -263,8 +263,8 @@ static void the_series_comes_back_as_the_lobe(void **state) {
             1e-9);
 }
 
-/* The largest difference of the truncated series from the whole lobe, over angles and light sizes,
- * in parts of the response's peak. */
+/* Returns the largest difference of the truncated series from the whole lobe, over angles and light
+ * sizes, relative to the response's peak. */
 static double cost_of_cutting(double exponent, int bands) {
     const double sizes[] = { 0.9, 0.5, 0.1 };
     const reference_material material = { { 0 }, { 1, 1, 1 }, exponent };

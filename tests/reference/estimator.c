@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What the ground truth stands on: its integrals against closed forms, and that no color is treated
- * otherwise. */
-#include "app/reference/estimate.h"
-#include "app/reference/quadrature.h"
-#include "app/trace/trace.h"
+/* The ground truth's foundations: its integrals against closed forms, and the equal treatment of
+ * all colors. */
+#include "app/scene/trace/trace.h"
+#include "app/truth/reference_estimate.h"
+#include "app/truth/reference_quadrature.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/placed.h"
 
@@ -66,7 +66,7 @@ static void integrals_have_their_closed_forms(void **state) {
 
 enum { SPHERES = 4, LIGHTS = 6 };
 
-/* Spheres, a point and a direction, of one color or white. */
+/* Estimates the light of spheres, a point and a direction, of one color or white. */
 static reference_result estimate(const reference_material *material, int light_color) {
     scene_light lights[LIGHTS];
     for (int i = 0; i < LIGHTS; i++) {
@@ -104,8 +104,9 @@ static reference_material material_of(int diffuse, int specular) {
     return material;
 }
 
-/* Light of one color, or a material of one, takes the samples that white takes, and gives its part
- * of what white gives; where a material's two lobes have two colors, they give white's together. */
+/* Light of one color, or a material of one, takes the samples that white takes, and gives its
+ * fraction of what white gives; where a material's two lobes have two colors, together they give
+ * white's. */
 static void a_color_alone_is_estimated_as_white_is(void **state) {
     (void)state;
     const reference_material white = material_of(-1, -1);
@@ -176,7 +177,7 @@ static void a_wide_limit_of_addresses_leaves_room_for_rays(void **state) {
 
 /* --- tables ----------------------------------------------------------------------------------- */
 
-/* Seen from its nodes a table's value is the series of its coefficients, sines among them. */
+/* Seen from its nodes a table's value is the series of its coefficients, sines included. */
 static void a_table_is_its_series_at_its_nodes(void **state) {
     (void)state;
     enum { BANDS = 5, COUNT = BANDS * BANDS };

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* glTF's metallic-roughness as the ground truth has it, against appendix B of glTF 2.0 integrated
- * over caps without it (tests/oracle/gltf.h). */
-#include "app/reference/estimate.h"
-#include "app/reference/quadrature.h"
+/* glTF's metallic-roughness in the ground truth, against appendix B of glTF 2.0 integrated over
+ * caps independently (tests/oracle/gltf.h). */
+#include "app/truth/reference_estimate.h"
+#include "app/truth/reference_quadrature.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
 
@@ -16,7 +16,7 @@ static reference_vec direction(double to, double azimuth) {
     return (reference_vec) { sin(to) * cos(azimuth), sin(to) * sin(azimuth), cos(to) };
 }
 
-/* A surface at the origin, seen from a direction at azimuth 180 degrees. */
+/* Returns a surface at the origin, seen from a direction at azimuth 180 degrees. */
 static reference_ggx ggx_of(double base, double metallic, const reference_dielectric *layer,
                             double alpha, double view) {
     const double color[3] = { base, base, base };
@@ -45,7 +45,7 @@ static scene_light sphere(reference_vec axis, double half_angle) {
                                         .radiance = { 1, 1, 1 } } };
 }
 
-/* Of metal and dielectric mixed: appendix B's is linear in them. */
+/* Returns the value of metal and dielectric mixed, in which appendix B is linear. */
 static double exact(double base, double metallic, const reference_dielectric *layer, double alpha,
                     double view, const scene_light *of, double half_angle) {
     const oracle_gltf metal = { alpha, view, base, 1, 0 };
@@ -64,7 +64,7 @@ static void reflection_is_that_of_the_specification(void **state) {
     for (int i = 0; i < 5; i++)
         for (int v = 0; v < 4; v++)
             for (int k = 0; k < 9; k++) {
-                /* around the mirror direction, beside it, and anywhere */
+                /* directions around the mirror direction, beside it, and anywhere */
                 const double off = k % 3 == 0 ? 0.5 * alphas[i] : k % 3 == 1 ? 3 * alphas[i] : 1;
                 const double to = fmin(fabs(views[v] + off * check_random_between(-1, 1)), 1.6);
                 const double half_angle = k < 3 ? 0.02 : k < 6 ? 0.2 : 0.9;
@@ -90,7 +90,7 @@ static void reflection_is_that_of_the_specification(void **state) {
     CHECK_WITHIN(noise, 0.1);
 }
 
-/* GGX over GGX: the coat's part, and of what is under it the rest. */
+/* GGX over GGX reflects the coat's fraction, and the rest of what is under it. */
 static void a_coated_surface_is_estimated_without_bias(void **state) {
     (void)state;
     const double views[] = { 0, 0.7, 1.2 }, weights[] = { 1, 0.5 };
@@ -122,7 +122,7 @@ static void a_coated_surface_is_estimated_without_bias(void **state) {
         }
 }
 
-/* What a white metal reflects in all: the mean over its own samples is at most 1. */
+/* The mean over its own samples of what a white metal reflects is at most 1. */
 static void samples_follow_the_specular_part(void **state) {
     (void)state;
     const double alphas[] = { 0.001, 0.1, 0.5, 1 }, views[] = { 0, 0.8, 1.5 };
@@ -200,7 +200,7 @@ static double never(reference_vec point, reference_vec w, void *user) {
     return (double)INFINITY;
 }
 
-/* Directions drawn in lights that may be hidden, and are not, give what the lights give. */
+/* Directions drawn in lights that may be hidden, but are not, give what the lights give. */
 static void visible_lights_give_the_same_series(void **state) {
     (void)state;
     const reference_band_limit limit = { 5, LMP_WINDOW_HANNING, 0 };
@@ -219,7 +219,7 @@ static void visible_lights_give_the_same_series(void **state) {
                  4 * (drawn.standard_error[0] + plain.standard_error[0]));
 }
 
-/* Under a light that may be hidden. */
+/* Estimates under a light that may be hidden. */
 static reference_result estimate_in_view(const reference_ggx *ggx, const scene_light *light) {
     const reference_band_limit limit = { 5, LMP_WINDOW_HANNING, 0 };
     const reference_stop stop = { .samples = 20000 };
@@ -233,7 +233,7 @@ static reference_result estimate_in_view(const reference_ggx *ggx, const scene_l
     return result;
 }
 
-/* Light of any color takes the samples that white takes; a metal's color says which lobe they are
+/* Light of any color takes the samples that white takes; a metal's color decides the lobe they are
  * drawn from, but not what they come to. */
 static void colors_of_series_are_estimated_as_white_is(void **state) {
     (void)state;
@@ -260,7 +260,8 @@ static void colors_of_series_are_estimated_as_white_is(void **state) {
         CHECK_WITHIN(fabs(by_light.mean[c] - of_white.mean[c] * parts[c]), 1e-6 * of_white.mean[c]);
 }
 
-/* Light and view rotated about the normal together reflect, are drawn and are dense as before. */
+/* When light and view rotate about the normal together, reflection, draws and densities stay the
+ * same. */
 static void rotating_light_and_view_together_changes_nothing(void **state) {
     (void)state;
     const double color[3] = { 0.7, 0.4, 0.2 };

@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* judge_seeds OURS.exr THEIRS.exr…: whether an image with its standard error (layer "stderr") and
- * the mean of several that differ by their noise alone show the same. Prints how many values are
- * more than three standard errors apart, and the ratio of the sums; status 1 if these are too many,
- * or it is too far from 1. */
+/* judge_seeds OURS.exr THEIRS.exr…: tests whether an image with its standard error (layer "stderr")
+ * shows the same as the mean of several that differ only by noise. Prints how many values are more
+ * than three standard errors apart, and the ratio of the sums; status 1 if these are too many, or
+ * it is too far from 1. */
 #include "app/image/image.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Of the peak, and of the sum: what a sphere of triangles may be off, and rare samples hide. */
+/* Tolerances of the peak, and of the sum: what a sphere of triangles may be off, and what rare
+ * samples hide. */
 #define ROUNDING 1e-3
 
 typedef struct moments {
-    double mean, error; /* of the mean */
+    double mean, error; /* error of the mean */
 } moments;
 
-/* Of value `at` in all images. */
+/* Returns the moments of value `at` over all images. */
 static moments moments_at(const image *images, int count, size_t at) {
     double sum = 0, squares = 0;
     for (int k = 0; k < count; k++)
@@ -58,7 +59,7 @@ int main(int argc, char **argv) {
     const int count = argc - 2;
     image ours = { .rgb = NULL }, spread = { .rgb = NULL };
     image *const theirs = calloc((size_t)argc, sizeof *theirs);
-    cli_error error;
+    base_error error;
     bool ok = theirs && count > 1 && image_read(argv[1], IMAGE_READ_PIXELS, &ours, &error) &&
               image_read_layer(argv[1], "stderr", &spread, &error);
     for (int k = 0; ok && k < count; k++)

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Lights of every kind against closed forms of what a white diffuse surface reflects. */
-#include "app/reference/estimate.h"
-#include "app/reference/quadrature.h"
+#include "app/truth/reference_estimate.h"
+#include "app/truth/reference_quadrature.h"
 #include "tests/oracle/check.h"
 
 #include <string.h>
 
 static const reference_vec origin = { 0, 0, 0 };
 
-/* A surface whose normal lies at `tilt` from y towards x. */
+/* Returns a surface whose normal lies at `tilt` from y towards x. */
 static reference_surface white_surface(double tilt) {
     const reference_band_limit whole = { .bands = 0 };
     const reference_material white = { .diffuse = { 1, 1, 1 } };
@@ -30,7 +30,8 @@ static reference_result estimate(const reference_surface *surface, const lmp_lig
     return result;
 }
 
-/* The radiance reflected for radiance, intensity or irradiance (1, 2, 4), by both integrators. */
+/* Checks the radiance reflected for radiance, intensity or irradiance (1, 2, 4), by both
+ * integrators. */
 static void check(const lmp_light *light, double tilt, double truth) {
     const reference_surface surface = white_surface(tilt);
     const scene_light own = { .emitter = *light };
@@ -56,11 +57,12 @@ static void a_point_light_falls_off_by_the_square_of_its_distance(void **state) 
     check(&light, 1, cos(1) / (4 * REFERENCE_PI));
 }
 
-/* Straight under it, on its rim, outside, and where the cosine is half way: a quarter. */
+/* The points lie straight under the spot, on its rim, outside, and where the cosine is half way: a
+ * quarter. */
 static void a_spot_fades_between_its_cones(void **state) {
     (void)state;
-    const double inner = 0.3, outer = 0.8, half = acos((cos(0.3) + cos(0.8)) / 2);
-    const double angles[] = { 0, 0.29, half, 0.81, 3 }, falloff[] = { 1, 1, 0.25, 0, 0 };
+    const double inner = 0.3, outer = 0.8, middle = acos((cos(0.3) + cos(0.8)) / 2);
+    const double angles[] = { 0, 0.29, middle, 0.81, 3 }, falloff[] = { 1, 1, 0.25, 0, 0 };
     for (size_t i = 0; i < sizeof angles / sizeof *angles; i++) {
         const lmp_light light = { .kind = LMP_LIGHT_SPOT,
                                   .position = { 0, 3, 0 },
@@ -82,7 +84,7 @@ static void a_directional_light_gives_its_irradiance_times_the_cosine(void **sta
     check(&light, 2, 0);
 }
 
-/* E = pi L sin²a cos(theta) above the horizon; of a cap beyond pi/2, straight above, pi L. */
+/* E = pi L sin²a cos(theta) above the horizon; a cap beyond pi/2, straight above, gives pi L. */
 static void a_cap_gives_the_irradiance_of_a_sphere_as_wide(void **state) {
     (void)state;
     lmp_light light = { .kind = LMP_LIGHT_CAP, .direction = { 0, 1, 0 }, .radiance = color };
@@ -111,8 +113,8 @@ static void a_tilted_surface_sees_sky_and_ground(void **state) {
 }
 
 /* A lobe of exponent 0 is 1/(2 pi) over the hemisphere around the mirror direction. Of a sky it
- * sees the part that their hemispheres share, 1 - t/pi; of a cap inside it the solid angle over 2
- * pi. */
+ * sees the fraction that their hemispheres share, 1 - t/pi; of a cap inside it the solid angle over
+ * 2 pi. */
 static void a_lobe_of_exponent_0_is_flat(void **state) {
     (void)state;
     const reference_band_limit whole = { .bands = 0 };

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* What lies over and around a material of glTF: occlusion maps, KHR_materials_specular, _ior and
- * _clearcoat. */
+/* Layers over a material of glTF, and occlusion of its surroundings: occlusion maps,
+ * KHR_materials_specular, _ior and _clearcoat. */
 #include "tests/reference/sheet.h"
 
 #include "tests/oracle/check.h"
 
 #include <math.h>
 
-/* At normal incidence, of a surface so smooth that F0 is all that counts, under a white sky: each
+/* Checks a surface so smooth that only F0 counts, at normal incidence under a white sky: each
  * device within what lobes leave of GGX, and the ground truth within its noise. */
 static void check_reflected(const char *material, double expected[2][3]) {
     sheet s;
     image images[SHEET_IMAGES], noise;
     sheet_open(&s, material);
-    s.world.light_count = 0; /* what glows is one */
+    s.world.light_count = 0; /* a glowing material counts as a light */
     sheet_draw(&s, true, 1, images, &noise);
     for (int half = 0; half < 2; half++)
         for (int c = 0; c < 3; c++) {
@@ -27,7 +27,8 @@ static void check_reflected(const char *material, double expected[2][3]) {
     sheet_close(&s);
 }
 
-/* Base black: F0 of an index of 2 is 1/9, times color and weight; the map's alpha is 0.4 and 1. */
+/* Over a black base F0 of an index of 2 is 1/9, times color and weight; the map's alpha is 0.4 and
+ * 1. */
 static void a_dielectric_reflects_by_its_index_color_and_weight(void **state) {
     (void)state;
     const double f0 = 0.5 / 9;
@@ -40,7 +41,7 @@ static void a_dielectric_reflects_by_its_index_color_and_weight(void **state) {
                     expected);
 }
 
-/* Without a layer nothing is held back from a white base, and a metal does not heed it. */
+/* Without a layer a white base loses nothing, and a metal ignores the layer. */
 static void what_a_layer_lacks_passes_to_the_base_and_metals_have_none(void **state) {
     (void)state;
     double white[2][3] = { { 1, 1, 1 }, { 1, 1, 1 } };
@@ -53,7 +54,7 @@ static void what_a_layer_lacks_passes_to_the_base_and_metals_have_none(void **st
                     white);
 }
 
-/* The map's red is 0.2 and 1; a strength of 0.5 keeps off half of what it would. */
+/* The map's red is 0.2 and 1; a strength of 0.5 halves its effect. */
 static void occlusion_keeps_off_the_light_of_the_environment(void **state) {
     (void)state;
     double expected[2][3] = { { 0.6, 0.6, 0.6 }, { 1, 1, 1 } };
@@ -82,7 +83,7 @@ static void occlusion_leaves_lights_alone(void **state) {
     sheet_close(&s);
 }
 
-/* Four texels that shine, by either set of coordinates. */
+/* Four texels glow, by either set of coordinates. */
 static void both_coordinates_of_both_sets_tell_where_a_texture_is_read(void **state) {
     (void)state;
     static const float texels[2][2][3] = { { { 1, 0, 0 }, { 0, 1, 0 } },
@@ -109,7 +110,7 @@ static void both_coordinates_of_both_sets_tell_where_a_texture_is_read(void **st
     }
 }
 
-/* Of a column in the middle of a half. */
+/* Returns the blue of a column in the middle of a half. */
 static double blue_of(const image *drawn, int half) {
     double sum = 0;
     for (int y = 0; y < SHEET_SIDE; y++)
@@ -117,7 +118,8 @@ static double blue_of(const image *drawn, int half) {
     return sum / SHEET_SIDE;
 }
 
-/* Two squares behind each other, blue of 1: 0.4 of the first, 0.4 of 0.6 of the second. */
+/* Two squares of blue 1, one behind the other, show 0.4 of the first and 0.4 of 0.6 of the second.
+ */
 static void what_blends_shows_what_is_behind(void **state) {
     (void)state;
     sheet s;
@@ -125,19 +127,19 @@ static void what_blends_shows_what_is_behind(void **state) {
     const double expected[2] = { 0.4 + 0.6 * 0.4, 1 };
     sheet_open(&s, "{\"pbrMetallicRoughness\":{\"metallicFactor\":1,\"roughnessFactor\":0.05,"
                    "\"baseColorTexture\":{\"index\":0}},\"alphaMode\":\"BLEND\"}");
-    assert_int_equal(s.world.left_out_count, 0);
+    assert_int_equal(s.world.unsupported_count, 0);
     sheet_draw(&s, true, 256, images, &noise);
     for (int half = 0; half < 2; half++) {
         const double bound = 5 * sheet_at(&noise, half, 2) + 1e-4;
         CHECK_WITHIN(fabs(blue_of(&images[SHEET_GPU], half) - expected[half]), 0.03);
-        CHECK_WITHIN(fabs(blue_of(&images[SHEET_CPU], half) - expected[half]), 0.03);
+        CHECK_WITHIN(fabs(sheet_at(&images[SHEET_CPU], half, 2) - expected[half]), 0.01);
         CHECK_WITHIN(fabs(sheet_at(&images[SHEET_REFERENCE], half, 2) - expected[half]), bound);
     }
     sheet_free(images, &noise);
     sheet_close(&s);
 }
 
-/* Base black: an index of 2 reflects 1/9 of the map's color, which is sRGB. */
+/* Over a black base an index of 2 reflects 1/9 of the map's color, which is sRGB. */
 static void a_map_of_specular_colors_tints_the_dielectric(void **state) {
     (void)state;
     const double red = pow((0.2 + 0.055) / 1.055, 2.4), green = pow((0.4 + 0.055) / 1.055, 2.4);
@@ -149,7 +151,7 @@ static void a_map_of_specular_colors_tints_the_dielectric(void **state) {
                     expected);
 }
 
-/* What is under a coat of black GGX is the light that the surface emits. */
+/* Under a coat over black GGX there is only the light that the surface emits. */
 #define COATED(coat)                                                                               \
     "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1],\"metallicFactor\":0},"              \
     "\"emissiveFactor\":[1,0.5,0],\"extensions\":{\"KHR_materials_specular\":"                     \
@@ -162,7 +164,7 @@ static void fill_coated(double left, double right, double expected[2][3]) {
             expected[half][c] = emitted[c] + (half ? right : left) * (1 - emitted[c]);
 }
 
-/* The map's red is 0.2 and 1: so much of 0.04 is reflected along the normal. */
+/* The map's red is 0.2 and 1: that fraction of 0.04 is reflected along the normal. */
 static void a_coat_reflects_by_its_weight_and_dims_what_is_under_it(void **state) {
     (void)state;
     double expected[2][3];
@@ -172,7 +174,7 @@ static void a_coat_reflects_by_its_weight_and_dims_what_is_under_it(void **state
                     expected);
 }
 
-/* A coat that the map bends is seen at other angles: (-0.6, -0.2, 1) and (1, 1, 1). */
+/* Coats bent by the map are seen at other angles: (-0.6, -0.2, 1) and (1, 1, 1). */
 static void a_coat_has_a_normal_of_its_own(void **state) {
     (void)state;
     double expected[2][3];
@@ -183,8 +185,8 @@ static void a_coat_has_a_normal_of_its_own(void **state) {
                     expected);
 }
 
-/* Of a light in the mirror direction a rough coat gives less by its map's green, 0.4 and 1, of its
- * roughness, as both devices and the ground truth have it. */
+/* A light in the mirror direction is reflected less by a rough coat, whose roughness is scaled by
+ * its map's green, 0.4 and 1, on both devices as in the ground truth. */
 static void a_coat_has_a_roughness_of_its_own(void **state) {
     (void)state;
     sheet s;

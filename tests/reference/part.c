@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Parts of one image and their join, against sums over all samples at once, by their definitions.
  */
-#include "app/reference/part.h"
+#include "app/truth/reference_part.h"
 
 #include "tests/program/folder.h"
 
@@ -9,7 +9,7 @@
 
 enum { WIDTH = 3, HEIGHT = 2, VALUES = 3 * WIDTH * HEIGHT, SAMPLES = 14, PARTS = 3 };
 
-/* What is rendered: every sample of every value, and the scene and words they are of. */
+/* The rendered samples of every value, and the scene and words that they belong to. */
 static double drawn[SAMPLES][VALUES];
 static char block[] = "the triangles";
 static scene_light light;
@@ -19,7 +19,7 @@ static float mean_values[VALUES], error_values[VALUES];
 static image mean = { WIDTH, HEIGHT, mean_values }, spread = { WIDTH, HEIGHT, error_values };
 #define WORDS "reference a.gltf --samples 14"
 
-/* Mean and standard error of every step-th sample from `first` on, summed twice. */
+/* Computes mean and standard error of every step-th sample from `first` on, summed twice. */
 static void estimate(int first, int step, double means[VALUES], double errors[VALUES]) {
     const double n = (SAMPLES - first + step - 1) / step;
     for (int v = 0; v < VALUES; v++) {
@@ -40,7 +40,7 @@ static int draw(void **state) {
     return folder_make(state);
 }
 
-/* Writes what `mean` and `spread` have as that part, of the run of those words. */
+/* Writes `mean` and `spread` as a part of the run of those words. */
 static void write_values(const char *name, const char *text) {
     char copy[128], *words[16] = { NULL };
     int count = 0;
@@ -48,12 +48,12 @@ static void write_values(const char *name, const char *text) {
     for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
         words[count++] = word;
     const image_layer layers[] = { { NULL, &mean }, { "stderr", &spread } };
-    cli_error error;
+    base_error error;
     if (!reference_part_write(in_folder(name), &settings, &world, words, layers, &error))
         fail_msg("%s", error.text);
 }
 
-/* Writes part I of N under that name, as the run of those words. */
+/* Writes part I of N under a name, as of the run of those words. */
 static void write_part_of(const char *name, int part, int parts, const char *words) {
     double means[VALUES], errors[VALUES];
     settings.shard[0] = part;
@@ -72,11 +72,11 @@ static void write_part(const char *name, int part) {
 
 typedef struct joined {
     image mean, error;
-    cli_error message;
+    base_error message;
     bool ok;
 } joined;
 
-/* Joins the files of those names, of at most PARTS. Free the images. */
+/* Joins the files of those names, at most PARTS. The caller frees the images. */
 static joined join(bool partial, int count, const char *const *names) {
     static char paths[PARTS][512];
     char *list[PARTS];
@@ -123,8 +123,9 @@ static void parts_join_to_all_samples_at_once(void **state) {
     assert_joined(all);
 }
 
-/* Of the values 1, 2 and 4: a mean of 7/3, squares around it of 14/3, an error of the root of 7/9.
- * A part of one sample knows no error, so how far it is from the others is all there is. */
+/* The values 1, 2 and 4 have a mean of 7/3, squares around it of 14/3, and an error of the root of
+ * 7/9. A part of one sample has no error of its own, so its distance from the others is all there
+ * is. */
 static void parts_of_one_sample_each_err_by_how_they_differ(void **state) {
     (void)state;
     static const char *const names[] = { "one.exr", "two.exr", "four.exr" };
@@ -163,8 +164,8 @@ static void a_missing_part_and_one_given_twice_are_named(void **state) {
     assert_joined(JOIN(true, "3.exr", "1.exr"));
 }
 
-/* Each change of what was rendered makes another run of it; where the result goes, and how, none.
- */
+/* Each change of what is rendered makes another run; changes of where and how the result is written
+ * do not. */
 static void parts_belong_together_by_what_they_render(void **state) {
     (void)state;
     write_part("1.exr", 1);
@@ -234,8 +235,8 @@ static void all_that_was_read_makes_the_run(void **state) {
     settings.materials = NULL;
 }
 
-/* Writes odd.exr, which has these numbers of samples, I and N, `value` and `error` in one place,
- * and all else as a part has it. */
+/* Writes odd.exr, which has these numbers of samples, I and N, `value` and `error` at one position,
+ * and otherwise the values of a part. */
 static void write_odd(const float part[3], int at, float value, float error) {
     enum { LAYERS = 4 };
     static float values[LAYERS][VALUES];
@@ -247,7 +248,7 @@ static void write_odd(const float part[3], int at, float value, float error) {
                                          { "stderr", &pixels[1] },
                                          { "part", &pixels[2] },
                                          { "run", &pixels[3] } };
-    cli_error why;
+    base_error why;
     for (int v = 0; v < VALUES; v++) {
         values[0][v] = v == at ? value : 1;
         values[1][v] = v == at ? error : 1;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Images of the ground truth: a floor whose every pixel has a known value. */
-#include "app/reference/reference.h"
-#include "app/trace/trace.h"
+/* Images of the ground truth: a floor of which every pixel has a known value. */
+#include "app/scene/trace/trace.h"
+#include "app/truth/reference.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
 #include "tests/oracle/placed.h"
@@ -76,7 +76,7 @@ static void build(fixture *s) {
 }
 
 static void draw(const fixture *s, image *radiance, image *standard_error) {
-    cli_error error;
+    base_error error;
     assert_true(reference_render(&s->world, &s->settings, radiance, standard_error, &error));
 }
 
@@ -86,7 +86,7 @@ static void draw_plain(const fixture *s, image *radiance) {
     image_free(&standard_error);
 }
 
-/* The floor point seen through the center of a pixel, from the camera's definition. */
+/* Returns the floor point seen through the center of a pixel, by the camera's definition. */
 static reference_vec floor_point(const fixture *s, int x, int y) {
     const double top = tan((double)s->settings.camera.fov / 2);
     const reference_vec eye = reference_from_floats(s->settings.camera.eye);
@@ -101,9 +101,8 @@ static reference_vec floor_point(const fixture *s, int x, int y) {
     return reference_add(eye, reference_scale(-eye.y / d.y, d));
 }
 
-/* Of the floor's mixture of metal and dielectric under a sphere, by appendix B of glTF 2.0: its
- * green.
- */
+/* Returns the green of the floor's mixture of metal and dielectric under a sphere, by appendix B of
+ * glTF 2.0. */
 static double exact_green(const fixture *s, const scene_light *light, reference_vec p,
                           reference_vec view) {
     const double base = 0.25, metallic = (double)s->material.metallic;
@@ -148,8 +147,8 @@ static void every_pixel_is_what_the_specification_says(void **state) {
     image_free(&standard_error);
 }
 
-/* A light that is looked at is its radiance, of which nothing is drawn by chance; what lights of
- * other kinds have does not count. */
+/* A light that is seen is its radiance, of which nothing is random; lights of other kinds are not
+ * seen. */
 static void a_glowing_sphere_is_its_radiance_exactly(void **state) {
     (void)state;
     fixture s;
@@ -203,14 +202,14 @@ static void rays_are_lifted_in_the_scenes_own_unit(void **state) {
         s.world.maximum[i] /= 4096;
     }
     CHECK_WITHIN(fabs(trace_lift(&s.world) * 4096 / lift - 1), 1e-12);
-    s.world.minimum[1] = -1; /* the farthest of all, below */
+    s.world.minimum[1] = -1; /* the farthest point, below the floor */
     CHECK_WITHIN(fabs(trace_lift(&s.world) - 1e-5), 1e-12);
 }
 
 static void the_number_of_threads_changes_no_bit(void **state) {
     (void)state;
     scene world;
-    cli_error error;
+    base_error error;
     image one[2], two[2];
     reference_settings settings = {
         .width = 40, .height = 30, .samples = 16, .seed = 9, .error = 0.2, .shadows = true
@@ -235,7 +234,7 @@ static void the_number_of_threads_changes_no_bit(void **state) {
     scene_free(&world);
 }
 
-/* Of the image's middle row, whether the left and the right end are lit. */
+/* Finds whether the left and the right end of the image's middle row are lit. */
 static void lit_ends(const fixture *s, bool *left, bool *right) {
     image radiance;
     draw_plain(s, &radiance);
@@ -294,7 +293,8 @@ static void a_normal_map_tilts_the_normal(void **state) {
     for (int i = 0; i < 4; i++)
         memcpy(s.texels + 4 * i, (const unsigned char[4]) { 218, 128, 218, 255 }, 4);
     draw_plain(&s, &tilted);
-    /* 45° towards the light: the irradiance grows by sqrt 2, and so does what is diffuse of it. */
+    /* The normal lies 45° towards the light, so the irradiance grows by sqrt 2, and the diffuse
+     * part with it. */
     const size_t i = 3 * (WIDTH * (HEIGHT / 2) + WIDTH / 2) + 2;
     CHECK_WITHIN(fabs((double)tilted.rgb[i] / (double)flat.rgb[i] - sqrt(2.0)), 0.05);
     image_free(&flat);

@@ -3,14 +3,14 @@
  * specification. */
 #include "tests/reference/sheet.h"
 
-#include "app/override/override.h"
-#include "app/reference/sheen.h"
+#include "app/render/renderer/override.h"
+#include "app/truth/reference_sheen.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/sheen.h"
 
 #include <math.h>
 
-/* A dark square without a layer of its own: `sheen` on it, and under a coat. */
+/* A dark square without other layers: `sheen` on it, and under a coat. */
 #define CLOTH(sheen)                                                                               \
     "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.5,0.5,1],\"metallicFactor\":0},"        \
     "\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0},"                           \
@@ -23,13 +23,13 @@ typedef struct cloth {
 } cloth;
 
 static void draw(cloth *c, const char *json, const scene_light *light) {
-    cli_error error = { "" };
+    base_error error = { "" };
     c->tables = (override_set) { .count = 0 };
     sheet_open(&c->sheet, json);
     scene *world = &c->sheet.world;
-    assert_int_equal(world->left_out_count, 0);
+    assert_int_equal(world->unsupported_count, 0);
     sheet_expect(
-        override_bake_fibers(&c->tables, world, LMP_SHADE_BANDS_DEFAULT, LMP_WINDOW_NONE, &error) &&
+        override_bake_sheen(&c->tables, world, LMP_SHADE_BANDS_DEFAULT, LMP_WINDOW_NONE, &error) &&
             override_apply(&c->tables, world, c->sheet.renderers[SHEET_GPU], &error) &&
             override_apply(&c->tables, world, c->sheet.renderers[SHEET_CPU], &error),
         &error);
@@ -49,7 +49,7 @@ static double linear(double srgb) {
     return pow((srgb + 0.055) / 1.055, 2.4);
 }
 
-/* The map's colors, which are sRGB, and its alpha of 0.4 and 1, under a white sky. */
+/* The map's colors are sRGB, and its alpha is 0.4 and 1, under a white sky. */
 static void sheen_reflects_by_its_maps_and_leaves_the_rest(void **state) {
     (void)state;
     const double color[2][3] = { { linear(0.2), linear(0.4), 0.5 }, { 1, 1, 0.5 } };
@@ -73,7 +73,7 @@ static void sheen_reflects_by_its_maps_and_leaves_the_rest(void **state) {
     cloth_free(&c);
 }
 
-/* At a slant, where fibers shine. */
+/* The view is oblique, where sheen is bright. */
 static void sheen_under_a_light_is_the_ground_truth(void **state) {
     (void)state;
     const scene_light light = { .emitter = { .kind = LMP_LIGHT_CAP,
@@ -97,26 +97,34 @@ static void sheen_under_a_light_is_the_ground_truth(void **state) {
     cloth_free(&c);
 }
 
-/* Seen from above and aslant, on nodes of its table of albedos and between them. */
-static void the_reference_leaves_what_fibers_do_not_reflect(void **state) {
+static const reference_sheen_albedos *albedos(void) {
+    static reference_sheen_albedos all;
+    static bool filled;
+    if (!filled)
+        reference_sheen_albedos_fill(&all);
+    filled = true;
+    return &all;
+}
+
+/* Views are from above and oblique, on nodes of the table of albedos and between them. */
+static void the_reference_leaves_what_sheen_does_not_reflect(void **state) {
     (void)state;
-    static reference_sheen_albedos albedos;
     const double white[3] = { 1, 1, 1 }, colors[3] = { 0.3, 0.8, 0.1 };
     const reference_vec up = { 0, 0, 1 };
-    reference_sheen_albedos_fill(&albedos);
     for (double roughness = 0.1; roughness <= 1; roughness += 0.15)
         for (double angle = 0; angle < 1.57; angle += 0.12) {
             const reference_vec view = { sin(angle), 0, cos(angle) };
             const double e = oracle_sheen_albedo(roughness, angle);
             reference_sheen sheen;
-            reference_sheen_set(&sheen, &albedos, white, roughness, up, view);
+            reference_sheen_set(&sheen, albedos(), white, roughness, up, view);
             CHECK_WITHIN(fabs(1 - sheen.under - e), 0.01);
-            reference_sheen_set(&sheen, &albedos, colors, roughness, up, view);
+            reference_sheen_set(&sheen, albedos(), colors, roughness, up, view);
             CHECK_WITHIN(fabs(1 - sheen.under - 0.8 * e), 0.01);
         }
 }
 
-/* By midpoints in the cube root of the light's cosine and the root of its azimuth. */
+/* Integrates by midpoints in the cube root of the light's cosine and the square root of its
+ * azimuth. */
 static double reflected_of_a_sky(const reference_sheen *sheen) {
     enum { NODES = 80 };
     double sum = 0;
@@ -133,18 +141,16 @@ static double reflected_of_a_sky(const reference_sheen *sheen) {
 
 static void the_reference_reflects_no_more_than_arrives(void **state) {
     (void)state;
-    static reference_sheen_albedos albedos;
     static const double cosines[] = { 0.5,  0.1,   0.07,  0.05,  0.03, 0.02,
                                       0.01, 0.005, 0.002, 0.001, 1e-4, 1e-6 };
     const double white[3] = { 1, 1, 1 };
     const reference_vec up = { 0, 0, 1 };
-    reference_sheen_albedos_fill(&albedos);
     for (double roughness = 0.07; roughness < 0.35; roughness += 0.025)
         for (size_t k = 0; k < sizeof cosines / sizeof *cosines; k++) {
             const double z = cosines[k];
             const reference_vec view = { sqrt(1 - z * z), 0, z };
             reference_sheen sheen;
-            reference_sheen_set(&sheen, &albedos, white, roughness, up, view);
+            reference_sheen_set(&sheen, albedos(), white, roughness, up, view);
             const double reflected = reflected_of_a_sky(&sheen);
             CHECK_WITHIN(reflected, 1);
             CHECK_WITHIN(fabs(reflected + sheen.under - 1), 0.015);
@@ -155,7 +161,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sheen_reflects_by_its_maps_and_leaves_the_rest),
         cmocka_unit_test(sheen_under_a_light_is_the_ground_truth),
-        cmocka_unit_test(the_reference_leaves_what_fibers_do_not_reflect),
+        cmocka_unit_test(the_reference_leaves_what_sheen_does_not_reflect),
         cmocka_unit_test(the_reference_reflects_no_more_than_arrives),
     };
     return cmocka_run_group_tests(tests, sheet_folder, folder_remove);

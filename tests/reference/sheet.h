@@ -4,9 +4,9 @@
 #ifndef LAMPION_TESTS_SHEET_H
 #define LAMPION_TESTS_SHEET_H
 
-#include "app/environment/environment.h"
-#include "app/reference/reference.h"
-#include "app/render/renderer.h"
+#include "app/render/renderer/renderer.h"
+#include "app/scene/environment.h"
+#include "app/truth/reference.h"
 #include "tests/program/folder.h"
 
 #include <stdio.h>
@@ -20,7 +20,7 @@ enum { SHEET_GPU, SHEET_CPU, SHEET_REFERENCE, SHEET_IMAGES };
 /* From -1 to 1 in x and y, at z = 0, seen from +z, and once more behind it at z = -1. Texture 0 has
  * two texels, the halves of the square: red, green, blue and alpha of 0.2, 0.4, 1 and 0.4 on the
  * left, white on the right; texture 1 four: red and green above, blue and white below. The second
- * set of coordinates is the first with u and v in each other's place. */
+ * set of coordinates is the first with u and v exchanged. */
 static const char sheet_gltf[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2]}],"
     "\"extensionsUsed\":[\"KHR_materials_specular\",\"KHR_materials_ior\"],"
@@ -58,14 +58,14 @@ typedef struct sheet {
     environment sky; /* white all around */
 } sheet;
 
-static inline void sheet_expect(bool ok, const cli_error *error) {
+static inline void sheet_expect(bool ok, const base_error *error) {
     if (!ok)
         fail_msg("%s", error->text);
 }
 
-/* `material` is the JSON of the only one. */
+/* Opens the sheet; `material` is the JSON of its only material. */
 static inline void sheet_open(sheet *s, const char *material) {
-    cli_error error = { "" };
+    base_error error = { "" };
     char text[4096];
     snprintf(text, sizeof text, sheet_gltf, material);
     folder_write_text("sheet.gltf", text);
@@ -95,11 +95,11 @@ static inline void sheet_close(sheet *s) {
     scene_free(&s->world);
 }
 
-/* Under the sky, or under the scene's lights. The images and the ground truth's standard error are
- * to be freed. */
+/* Draws the sheet under the sky, or under the scene's lights. The caller frees the images and the
+ * ground truth's standard error. */
 static inline void sheet_draw(sheet *s, bool under_sky, int samples, image images[SHEET_IMAGES],
                               image *standard_error) {
-    cli_error error = { "" };
+    base_error error = { "" };
     const render_frame frame = { .width = SHEET_SIDE,
                                  .height = SHEET_SIDE,
                                  .camera = s->world.cameras[0],
@@ -123,7 +123,7 @@ static inline void sheet_draw(sheet *s, bool under_sky, int samples, image image
         &error);
 }
 
-/* Channel of a pixel in the middle of the left half (0) or the right half (1). */
+/* Returns a channel of a pixel in the middle of the left half (0) or the right half (1). */
 static inline double sheet_at(const image *drawn, int half, int channel) {
     const int x = half ? SHEET_SIDE - 2 : 1, y = SHEET_SIDE / 2;
     return (double)drawn->rgb[3 * (y * SHEET_SIDE + x) + channel];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Textures and lobes of the ground truth against closed forms. */
-#include "app/trace/texture.h"
-#include "app/reference/lobe.h"
+#include "app/scene/texture_at.h"
+#include "app/truth/reference_lobe.h"
 #include "tests/oracle/check.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static scene_texture texture;
 static scene_texture_use use;
 static scene world;
 
-/* What is bilinear between the centers of texels, each channel its own, in 0 … 1. */
+/* Returns the bilinear value between the centers of texels, for each channel, in 0 … 1. */
 static double channel_at(double column, double row, int c) {
     const double scale = 1 / 255.0;
     return scale * (10 + c + (20 + c) * column + (30 + 2 * c) * row + (5 + c) * column * row);
@@ -34,10 +34,10 @@ static void paint(uint32_t srgb) {
     world = (scene) { .textures = &texture, .texels = texels, .texture_count = 1 };
 }
 
-/* The position of a texel's center counts from 0, as channel_at does. */
+/* Reads at a position that counts from the center of the first texel, as channel_at does. */
 static void read_at(double column, double row, double rgba[4]) {
     const double uv[2] = { (column + 0.5) / COLUMNS, (row + 0.5) / ROWS };
-    trace_texture_at(&world, &use, uv, rgba);
+    texture_at(&world, &use, uv, rgba);
 }
 
 static void expect_at(double column, double row, double seen_column, double seen_row) {
@@ -82,7 +82,7 @@ static void repeated_textures_blend_across_their_edge(void **state) {
             1e-12);
 }
 
-/* IEC 61966-2-1; alpha stays as it is. */
+/* Colors follow IEC 61966-2-1; alpha is linear. */
 static void colors_are_decoded_before_they_blend(void **state) {
     (void)state;
     double rgba[4], linear[2];
@@ -98,19 +98,19 @@ static void colors_are_decoded_before_they_blend(void **state) {
     }
 }
 
-/* A quarter turn, a scale of 1/2 and an offset. */
+/* The transform is a quarter turn, a scale of 1/2 and an offset. */
 static void coordinates_are_transformed_first(void **state) {
     (void)state;
     double moved[4], plain[4];
     paint(0);
     const double uv[2] = { 0.3, 0.8 }, expected[2] = { -0.4 + 0.9, 0.15 + 0.25 };
-    trace_texture_at(&world, &use, expected, plain);
+    texture_at(&world, &use, expected, plain);
     use = (scene_texture_use) { 0, { 0, -0.5f, 0.5f, 0 }, { 0.9f, 0.25f }, 0 };
-    trace_texture_at(&world, &use, uv, moved);
+    texture_at(&world, &use, uv, moved);
     for (int c = 0; c < 4; c++)
         CHECK_WITHIN(fabs(moved[c] - plain[c]), 1e-6);
     use.texture = -1;
-    trace_texture_at(&world, &use, uv, moved);
+    texture_at(&world, &use, uv, moved);
     for (int c = 0; c < 4; c++)
         assert_true(moved[c] == 1);
 }

@@ -15,7 +15,7 @@ cut -d, -f1-10 "$WORK/all.csv" | cmp - "$WORK/plain.csv" || fail "--truth change
 [ "$(grep -c '"value": [0-9]' "$WORK/all.json")" = $(($(wc -l <"$WORK/all.csv") - 1)) ] || fail "JSON has other rows"
 ! command -v python3 >/dev/null || python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$WORK/all.json"
 
-# a column of either form, in any order, with either end of line
+# A column may have either form, any order, and either end of line.
 cut -d, -f1-11 "$WORK/all.csv" >"$WORK/whole.csv"
 cut -d, -f1,11 "$WORK/all.csv" >"$WORK/mine.csv"
 { head -n 1 "$WORK/mine.csv"; tail -n +2 "$WORK/mine.csv" | sort -r; } | sed 's/$/\r/' >"$WORK/sorted.csv"
@@ -34,7 +34,7 @@ grep -A 1 '^worst rows' "$WORK/out" | grep -q '^  700,' || fail "the worst row i
 grep '^id\|,lambert,' "$WORK/whole.csv" | "$PROGRAM" ruler --check - --material lambert >/dev/null ||
     fail "a column of one material is refused"
 
-# refuse TEXT SED-SCRIPT: the column so changed is refused with a line that says TEXT
+# refuse TEXT SED-SCRIPT: the column changed by the script must be refused with a line that contains TEXT.
 refuse() {
     sed "$2" "$WORK/mine.csv" >"$WORK/bad.csv"
     status=0

@@ -8,7 +8,7 @@ numbers() {
 }
 
 "$1" >"$WORK/table.c"
-numbers app/scoreboard/cosines_table.c >"$WORK/expected"
+numbers app/truth/scoreboard_cosines_table.c >"$WORK/expected"
 numbers "$WORK/table.c" >"$WORK/actual"
 paste "$WORK/expected" "$WORK/actual" | awk '
     { error = $1 - $2; if (error < 0) error = -error; size = $1 < 0 ? -$1 : $1 }

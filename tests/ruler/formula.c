@@ -17,35 +17,36 @@ static double ggx(double alpha, double nh, double nv, double nl) {
     return a2 / (acos(-1) * d * d) * 0.5 / shadow * nl;
 }
 
-static double gltf(const ruler_row *row, mistake kind, const double view[3],
+static double gltf(const ruler_row *row, diagnosis kind, const double view[3],
                    const double light[3]) {
     const double alpha = row->roughness * row->roughness;
-    double half[3] = { view[0] + light[0], view[1] + light[1], view[2] + light[2] };
-    const double length = sqrt(dot(half, half)), nl = fabs(light[2]);
-    const double vh = dot(view, half) / length;
+    double half_vector[3] = { view[0] + light[0], view[1] + light[1], view[2] + light[2] };
+    const double length = sqrt(dot(half_vector, half_vector)), nl = fabs(light[2]);
+    const double vh = dot(view, half_vector) / length;
     const double f0 = row->material == RULER_METAL ? row->color : 0.04;
-    const double grazing = kind == MISTAKE_FRESNEL ? 0 : pow(1 - vh, 5);
+    const double grazing = kind == DIAGNOSIS_FRESNEL ? 0 : pow(1 - vh, 5);
     const double fresnel = f0 + (1 - f0) * grazing;
-    const double specular = kind == MISTAKE_PHONG ? phong(view, light, 2 / (alpha * alpha) - 2)
-                                                  : ggx(alpha, fabs(half[2]) / length, view[2], nl);
+    const double specular = kind == DIAGNOSIS_PHONG
+                                ? phong(view, light, 2 / (alpha * alpha) - 2)
+                                : ggx(alpha, fabs(half_vector[2]) / length, view[2], nl);
     const double diffuse = row->material == RULER_METAL ? 0 : row->color / acos(-1) * nl;
     return fresnel * specular + (1 - fresnel) * diffuse;
 }
 
-double formula_at(const ruler_row *row, mistake kind, const double light[3]) {
-    const double factor = kind == MISTAKE_NORMALIZATION ? acos(-1) : 1;
+double formula_at(const ruler_row *row, diagnosis kind, const double light[3]) {
+    const double factor = kind == DIAGNOSIS_NORMALIZATION ? acos(-1) : 1;
     double view[3];
     view_of_row(row, view);
     if (row->material == RULER_PHONG)
         return row->color * factor * phong(view, light, row->exponent);
-    if (light[2] <= 0 && kind != MISTAKE_HORIZON)
+    if (light[2] <= 0 && kind != DIAGNOSIS_HORIZON)
         return 0;
     if (row->material == RULER_LAMBERT)
         return row->color * factor / acos(-1) * fabs(light[2]);
     return factor * gltf(row, kind, view, light);
 }
 
-/* The directions at `cosine` and azimuth phi around `axis`. */
+/* Returns the direction at `cosine` and azimuth phi around `axis`. */
 static void around(const double axis[3], double cosine, double phi, double direction[3]) {
     const double sine = sqrt(fmax((1 - cosine) * (1 + cosine), 0));
     const double flat = hypot(axis[0], axis[1]);
@@ -56,7 +57,7 @@ static void around(const double axis[3], double cosine, double phi, double direc
         direction[k] = cosine * axis[k] + sine * (cos(phi) * s[k] + sin(phi) * t[k]);
 }
 
-static double over_cap(const ruler_row *row, mistake kind, const double axis[3], double angle,
+static double over_cap(const ruler_row *row, diagnosis kind, const double axis[3], double angle,
                        int steps) {
     const double height = 2 * pow(sin(angle * RADIANS / 2), 2), step = 2 * acos(-1) / steps;
     double sum = 0;
@@ -69,7 +70,7 @@ static double over_cap(const ruler_row *row, mistake kind, const double axis[3],
     return sum * height * step / steps;
 }
 
-double formula_over_light(const ruler_row *row, mistake kind, int steps) {
+double formula_over_light(const ruler_row *row, diagnosis kind, int steps) {
     double axis[3];
     ruler_direction(row->light_angle, row->light_azimuth, axis);
     if (row->light == RULER_HEMISPHERE)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lmp_shade by every method against the ruler: lobes against their proven truncated series (the
  * code's error), and all materials against the whole truth (the method's error). */
-#include "app/ruler/figures.h"
+#include "app/truth/ruler_figures.h"
 #include "tests/ruler/rows.h"
 
 #include <stdlib.h>
@@ -10,8 +10,8 @@
 #define BAND_COUNTS 5
 static const int band_counts[BAND_COUNTS] = { 3, 5, 10, 20, 100 };
 
-static const char *const method_names[LMP_SHADE_METHODS] = { "zonal", "coefficients",
-                                                             "preintegrated" };
+static const char *const method_names[LMP_SHADE_METHOD_COUNT] = { "zonal", "coefficients",
+                                                                  "preintegrated" };
 
 /* Settings of one method; a preintegrated lobe is made for them. */
 typedef struct shading {
@@ -37,7 +37,8 @@ static double shade(const shading *s, const ruler_row *row) {
 
 /* --- the code's error ------------------------------------------------------------------------- */
 
-/* A light's peak is about its scale times half of e + 1, of which n bands show at most n²/4. */
+/* Bounds a light's peak: about its scale times half of e + 1, of which n bands show at most n²/4.
+ */
 static double peak_of(const ruler_row *row, int bands) {
     const double exponent = row->material == RULER_PHONG ? row->exponent : 1;
     return ruler_scale(row) * fmin((exponent + 1) / 2, bands * bands / 4.0);
@@ -67,7 +68,7 @@ static void read_bands(const ruler_table *table, band_values *values) {
     fclose(file);
 }
 
-/* The largest error of the rows, in parts of their peaks. */
+/* Returns the largest error of the rows, relative to their peaks. */
 static double code_error(const ruler_table *table, const band_values *values,
                          lmp_shade_method method, int which, int step) {
     const int bands = band_counts[which % BAND_COUNTS];
@@ -79,7 +80,7 @@ static double code_error(const ruler_table *table, const band_values *values,
         if (row->material >= RULER_METAL)
             continue;
         if (row->material == RULER_LAMBERT && method != LMP_SHADE_COEFFICIENTS)
-            continue; /* by a closed form */
+            continue; /* has a closed form */
         const double error = fabs(shade(&s, row) - fmax(values[i].of[which], 0));
         largest = fmax(largest, error / peak_of(row, bands));
     }
@@ -89,12 +90,12 @@ static double code_error(const ruler_table *table, const band_values *values,
 
 static void lobes_are_their_truncated_series(void **state) {
     (void)state;
-    static const double bounds[LMP_SHADE_METHODS] = { 1e-5, 1e-4, 0.005 };
+    static const double bounds[LMP_SHADE_METHOD_COUNT] = { 1e-5, 1e-4, 0.005 };
     ruler_table table = open_table();
     band_values *const values = calloc((size_t)table.count, sizeof *values);
     assert_non_null(values);
     read_bands(&table, values);
-    for (int method = 0; method < LMP_SHADE_METHODS; method++) {
+    for (int method = 0; method < LMP_SHADE_METHOD_COUNT; method++) {
         const int step = method == LMP_SHADE_COEFFICIENTS ? check_count(7, 1) : 1;
         for (int k = 0; k < 2 * BAND_COUNTS; k++) {
             const double error = code_error(&table, values, (lmp_shade_method)method, k, step);
@@ -109,7 +110,7 @@ static void lobes_are_their_truncated_series(void **state) {
 
 /* --- the method's error ----------------------------------------------------------------------- */
 
-/* Root mean square of the relative errors of a material. */
+/* Returns the root mean square of the relative errors of a material. */
 static double method_error(const ruler_table *table, const shading *s, ruler_material material,
                            int step) {
     check_errors errors = { 0 };
@@ -128,7 +129,7 @@ static void methods_are_as_near_the_truth_as_the_page_says(void **state) {
         { 0.07, 50, 10, 10 }, { 0.015, 30, 5, 5 },
     };
     ruler_table table = open_table();
-    for (int method = 0; method < LMP_SHADE_METHODS; method++)
+    for (int method = 0; method < LMP_SHADE_METHOD_COUNT; method++)
         for (int k = 0; k < BAND_COUNTS; k++) {
             const int step = method == LMP_SHADE_COEFFICIENTS ? check_count(7, 1) : 1;
             const shading s = shading_of((lmp_shade_method)method, band_counts[k], LMP_WINDOW_NONE);

@@ -13,7 +13,7 @@ done
 "$PROGRAM" compare all.exr whole.exr --fail-above rmse=1e-6 >/dev/null || fail "the parts are not the whole"
 ! "$PROGRAM" compare 1.exr whole.exr --fail-above rmse=1e-4 >/dev/null || fail "a part is the whole already"
 
-# refuse TEXT COMMAND…: one line that says TEXT
+# refuse TEXT COMMAND…: the command must fail with one line that contains TEXT.
 refuse() {
     text=$1
     shift
@@ -33,7 +33,7 @@ refuse '1.exr: is part 1 of 3, as 1.exr is' merge 1.exr 1.exr -o bad.exr
 refuse 'whole.exr: has no layer "run"' merge whole.exr -o bad.exr
 refuse 'expected the parts' merge -o bad.exr
 refuse 'is not a .exr file' merge 1.exr -o bad.png
-# the words are the same, and what they name is another
+# The words are the same, but name another file.
 "$PROGRAM" brdf bake lambert:0.2 --bands 4 --views 4 -o paint.lmpt
 "$PROGRAM" reference "$@" --material 'plastic 1.00=paint.lmpt' --shard 1/2 -o paint1.exr
 "$PROGRAM" brdf bake lambert:0.9 --bands 4 --views 4 -o paint.lmpt
@@ -43,7 +43,7 @@ refuse 'has no sample' reference "$@" --shard 11/11 -o bad.exr
 refuse '--shard writes .exr' reference "$@" --shard 1/2 -o bad.png
 refuse '--shard writes .exr' reference "$@" --shard 1/2 --bands 5 -o bad.exr
 
-# two of three are an image of fewer samples, noisier than the whole
+# Two parts of three are an image of fewer samples, noisier than the whole.
 "$PROGRAM" merge --partial 3.exr 1.exr -o two.exr
 "$PROGRAM" compare two.exr whole.exr --fail-above relmse=0.1 >/dev/null || fail "two parts are another image"
 ! "$PROGRAM" compare two.exr whole.exr --fail-above rmse=1e-4 >/dev/null || fail "two parts are the whole"

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* Proven values against dense plain sums around the light, of the formula as vectors have it. */
+/* Proven values against dense plain sums around the light, of the formula written with vectors. */
 #include "tests/ruler/formula.h"
 
 #define STEPS 500
 
-/* Smooth enough for such a sum: lobes that are not narrow beside their light. */
+/* Whether a row is smooth enough for such a sum: its lobe is not narrow beside its light. */
 static bool is_smooth(const ruler_row *row) {
-    const double half = ruler_half_angle(row);
-    return half > 0 && row->exponent <= 100 &&
-           (row->material < RULER_METAL || row->roughness >= 0.4 || half < 10) &&
+    const double half_angle = ruler_half_angle(row);
+    return half_angle > 0 && row->exponent <= 100 &&
+           (row->material < RULER_METAL || row->roughness >= 0.4 || half_angle < 10) &&
            row->value > 0.01 * ruler_scale(row);
 }
 
-/* Ten of those rows, others at each seed, as many of each material as another. */
+/* Ten of the rows, others at each seed, with as many of one material as of another. */
 static void ten_rows_agree_with_a_dense_sum(void **state) {
     (void)state;
     ruler_table table = open_table();
@@ -22,7 +22,7 @@ static void ten_rows_agree_with_a_dense_sum(void **state) {
         assert_true(tries < 100000);
         if ((int)row->material != count % RULER_MATERIALS || !is_smooth(row))
             continue;
-        const double sum = formula_over_light(row, MISTAKE_NONE, STEPS);
+        const double sum = formula_over_light(row, DIAGNOSIS_NONE, STEPS);
         const double error = fabs(sum - row->value) / row->value;
         worst = fmax(worst, error);
         CHECK_WITHIN(error, 1e-3);
@@ -41,7 +41,7 @@ static void single_directions_are_the_formula(void **state) {
         const ruler_row *const row = &table.rows[i];
         if (ruler_half_angle(row) > 0)
             continue;
-        const double exact = formula_over_light(row, MISTAKE_NONE, 1);
+        const double exact = formula_over_light(row, DIAGNOSIS_NONE, 1);
         CHECK_WITHIN(fabs(exact - row->value), 1e-9 * row->value + row->radius + 1e-14);
         count++;
     }
@@ -49,7 +49,8 @@ static void single_directions_are_the_formula(void **state) {
     ruler_table_free(&table);
 }
 
-/* What has a closed form: a sphere above the horizon reflects (r/d)² cos of its direction. */
+/* Spheres have a closed form: one above the horizon reflects (r/d)² times the cosine of its
+ * direction. */
 static void diffuse_spheres_have_a_closed_form(void **state) {
     (void)state;
     ruler_table table = open_table();
@@ -67,7 +68,7 @@ static void diffuse_spheres_have_a_closed_form(void **state) {
     ruler_table_free(&table);
 }
 
-/* Radii are what the page promises. */
+/* Radii are as small as the document promises. */
 static void radii_are_as_small_as_promised(void **state) {
     (void)state;
     ruler_table table = open_table();

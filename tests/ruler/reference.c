@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The reference renderer's two integrators against the ruler. */
-#include "app/reference/estimate.h"
-#include "app/reference/quadrature.h"
+#include "app/truth/reference_estimate.h"
+#include "app/truth/reference_quadrature.h"
 #include "tests/ruler/rows.h"
 
 static const reference_vec origin = { 0, 0, 0 }, up = { 0, 0, 1 };
@@ -29,8 +29,8 @@ static void set_ggx(reference_surface *surface, reference_ggx *ggx, const ruler_
     reference_surface_shine(surface, &whole, ggx, up, view_vector(row));
 }
 
-/* Lights are float32: an exponent of 10 000 sees that of their directions, and the rim of a sphere
- * that is nearly touched moves by more than its radius does. */
+/* Bounds the rounding of lights to float32: an exponent of 10 000 shows that of their directions,
+ * and the rim of a sphere that is nearly touched moves by more than its radius does. */
 static double rounding(const ruler_row *row) {
     const bool outside = row->light == RULER_SPHERE && row->size < 1;
     const double rim = outside ? 6e-8 / sqrt(1 - row->size * row->size) * ruler_scale(row) : 0;
@@ -79,12 +79,13 @@ static reference_result estimate(const ruler_row *row, int samples) {
 
 #define SAMPLES 1024
 
-/* What is so rare that no sample met it is in no standard error either. */
+/* Bounds the light so rare that no sample met it, which no standard error shows either. */
 static double unseen(const ruler_row *row) {
     return 5.0 / SAMPLES * (row->value + 0.1 * ruler_scale(row));
 }
 
-/* Few samples of rare bright ones are not normal: a few rows may be beyond 5 standard errors. */
+/* A few samples of rare bright lights are not normally distributed: a few rows may differ by more
+ * than 5 standard errors. */
 static void estimates_are_within_bound_and_noise(void **state) {
     (void)state;
     ruler_table table = open_table();

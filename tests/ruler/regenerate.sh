@@ -41,7 +41,7 @@ overlap ruler/ruler.csv "$WORK/rows.csv" 1 || fail "the table is not what its ge
 "$WORK/lampion_ruler" --bands $ids >"$WORK/bands.csv" 2>>"$WORK/effort"
 overlap ruler/bands.csv "$WORK/bands.csv" 10 || fail "the truncated values are not what their generator writes"
 
-# and a wrong one would be seen
+# A wrong row must be found.
 sed '2s/,[0-9.e-]*,\([^,]*\)$/,123,\1/' "$WORK/rows.csv" >"$WORK/wrong.csv"
 ! overlap ruler/ruler.csv "$WORK/wrong.csv" 1 >/dev/null || fail "a wrong value goes unseen"
 

@@ -4,7 +4,8 @@
 #ifndef LAMPION_RULER_ROWS_H
 #define LAMPION_RULER_ROWS_H
 
-#include "app/ruler/table.h"
+#include "app/base/cli.h"
+#include "app/truth/ruler_table.h"
 #include "tests/oracle/check.h"
 
 #include <lampion/shade.h>
@@ -27,7 +28,8 @@ static inline void view_of_row(const ruler_row *row, double view[3]) {
     ruler_direction(row->view_angle, 180, view);
 }
 
-/* Axis from the light at `direction` from the point, so that the point is `off` degrees off it. */
+/* Returns a spot's axis for a light in `direction` from the point, so that the point is `off`
+ * degrees off the axis. */
 static inline lmp_vec3 spot_axis(const double direction[3], double off) {
     double side[3] = { -direction[1], direction[0], 0 }, axis[3];
     const double length = hypot(side[0], side[1]);
@@ -39,8 +41,8 @@ static inline lmp_vec3 spot_axis(const double direction[3], double off) {
     return to_floats(axis);
 }
 
-/* A sphere that is touched, or seen from inside, is a cap: its radius as a float would decide
- * which. */
+/* Returns a row's light. A sphere that is touched, or seen from inside, becomes a cap: its radius
+ * as a float would decide which it is. */
 static inline lmp_light light_of_row(const ruler_row *row) {
     double direction[3];
     ruler_direction(row->light_angle, row->light_azimuth, direction);
@@ -87,7 +89,7 @@ static inline ruler_table open_table(void) {
     const cli_list none = { .count = 0 };
     ruler_choice choice;
     ruler_table table;
-    cli_error error;
+    base_error error;
     assert_true(ruler_choose(&none, &none, &choice, &error));
     assert_true(ruler_table_open(&choice, &table, &error));
     return table;

@@ -11,7 +11,7 @@ grep -A 4 '^lambert, [0-9]* rows' "$WORK/text" | grep -q '^  point  *0.222 ' || 
 [ "$(head -c 4 "$WORK/plates.png" | tail -c 3)" = PNG ] || fail "plates are no PNG"
 
 "$PROGRAM" scoreboard --formula cosines --format csv >"$WORK/all.csv"
-# the rows of all cells of a material are those of the material
+# The rows of all cells of a material must be those of the material.
 awk -F, 'NR == 1 { exit ($0 != "formula,material,roughness,half_angle,view_angle,rows,rms,balanced,median,max,worst,energy,ns") }
     ' "$WORK/all.csv" || fail "the header is another"
 awk -F, 'NR > 1 && $5 == "all" { whole[$2] = $6; next } NR > 1 { sum[$2] += $6 }
@@ -21,7 +21,7 @@ awk -F, 'NR > 1 && $5 == "all" { whole[$2] = $6; next } NR > 1 { sum[$2] += $6 }
 [ "$(grep -c '"formula"' "$WORK/all.json")" = $(($(wc -l <"$WORK/all.csv") - 1)) ] || fail "JSON has other records"
 ! command -v python3 >/dev/null || python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$WORK/all.json"
 
-# refuse TEXT OPTION…: one line that says TEXT
+# refuse TEXT OPTION…: the command must fail with one line that contains TEXT.
 refuse() {
     text=$1
     shift
@@ -32,5 +32,8 @@ refuse() {
 }
 refuse 'did you mean cosines?' --formula cosine
 refuse 'did you mean lambert?' --material lambertt
+refuse 'published: its table is read from a file: --cosines FILE' --formula published
+echo 'var g_ltc_1 = [1, 0, 0, 1];' >"$WORK/ltc.js"
+refuse "$WORK/ltc.js: is no table of linearly transformed cosines" --cosines "$WORK/ltc.js"
 refuse "$WORK/nowhere/plot.svg" --formula point --plot "$WORK/nowhere/plot.svg"
 refuse "$WORK/plates.txt" --formula point --plates "$WORK/plates.txt"

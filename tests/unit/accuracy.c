@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* The tables of docs/accuracy.md, printed and held: every figure is the largest error of float32
- * against the double-precision oracle at the same float32 input, over the largest value expected.
- * No bound is more than three times what the page says. */
-#include "app/zonal/zonal.h"
+/* The tables of docs/accuracy.md, printed and checked: every figure is the largest error of float32
+ * against the double-precision oracle at the same float32 input, relative to the largest value
+ * expected. No bound is more than three times the document's. */
+#include "app/render/zonal.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/oracle.h"
 
 #include <lampion/lobe.h>
 
-#include "app/file/file.h"
+#include "app/base/error.h"
+#include "app/base/file.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,7 +27,8 @@ static void wide(lmp_vec3 v, double w[3]) {
 
 static char *page;
 
-/* The numbers of the first row of the page's table that begins so; how many there are of them. */
+/* Reads the numbers of the first row of the document's table that begins with `row`; returns how
+ * many there are. */
 static int read_row(const char *table, const char *row, double numbers[16]) {
     const char *at = strstr(page, table);
     at = at ? strstr(at, row) : NULL;
@@ -43,7 +45,7 @@ static int read_row(const char *table, const char *row, double numbers[16]) {
     return count;
 }
 
-/* A bound is not below what the page says, nor above three times that. */
+/* Checks that a bound is not below the document's figure, nor above three times that. */
 static void check_bound(double bound, double said) {
     CHECK_WITHIN(said, bound);
     CHECK_WITHIN(bound, 3 * said);
@@ -55,7 +57,7 @@ typedef struct zonal_errors {
     double printed, differences;
 } zonal_errors;
 
-/* The largest over 50 lights of r/d from `ratio` to 2 % below. */
+/* Returns the largest errors over 50 lights of r/d from `ratio` to 2 % below. */
 static zonal_errors measure_zonal(int bands, double ratio) {
     zonal_errors worst = { 0, 0 };
     double expected[LMP_BANDS_MAX];
@@ -66,7 +68,7 @@ static zonal_errors measure_zonal(int bands, double ratio) {
         oracle_cap_zonal(bands, s * s / (1 + cosine), expected);
         zonal_printed(bands, sqrtf(1 - r * r), zonal);
         worst.printed = fmax(worst.printed, check_error((size_t)bands, expected, zonal));
-        lmp_sphere_zonal(bands, r, 1, zonal);
+        lmp_sphere_project_zonal(bands, r, 1, zonal);
         worst.differences = fmax(worst.differences, check_error((size_t)bands, expected, zonal));
     }
     return worst;
@@ -82,7 +84,7 @@ static void differences_keep_what_the_printed_equation_loses(void **state) {
                  { "\n| 0.0001 |", 1e-4 }, { "\n| 1e-06 |", 1e-6 } };
     static const int counts[] = { 3, 6, 10, 30, 128 };
     for (int i = 0; i < 8; i++) {
-        double said[16]; /* printed 3 … 128, Sloan 3 and 6, library 3 … 128 */
+        double said[16]; /* as printed for 3 … 128, Sloan for 3 and 6, library for 3 … 128 */
         assert_int_equal(read_row("| r/d | printed", rows[i].row, said), 12);
         for (int k = 0; k < 5; k++) {
             const zonal_errors errors = measure_zonal(counts[k], rows[i].ratio);
@@ -99,9 +101,8 @@ static void differences_keep_what_the_printed_equation_loses(void **state) {
 static double *expected, *slopes;
 static float *actual, *gradient, *matrices;
 
-/* 0.1 off the poles at least: near them the error is another, however rarely a direction falls
- * there.
- */
+/* Returns a direction at least 0.1 off the poles: near them the error differs, however rarely a
+ * direction falls there. */
 static lmp_vec3 random_off_poles(void) {
     lmp_vec3 direction;
     do
@@ -110,7 +111,7 @@ static lmp_vec3 random_off_poles(void) {
     return direction;
 }
 
-/* Within 0.1 of a pole, at every scale down to 1e-5. */
+/* Returns a direction within 0.1 of a pole, at every scale down to 1e-5. */
 static lmp_vec3 random_pole(void) {
     const double r = pow(10, check_random_between(-5, -1)), phi = check_random_between(0, 6.28);
     const float z = (float)sqrt(1 - r * r);
@@ -130,7 +131,7 @@ static double measure_eval(int bands, lmp_vec3 direction) {
     return check_error(LMP_SH_COUNT(bands), expected, actual);
 }
 
-/* r/d from 1e-4 to 0.95 at random. */
+/* Returns a random r/d from 1e-4 to 0.95. */
 static float random_radius(void) {
     return (float)pow(10, check_random_between(-4, -0.0223));
 }
@@ -147,7 +148,7 @@ static double measure_sphere(int bands, double *gradient_error) {
     return check_error(LMP_SH_COUNT(bands), expected, actual);
 }
 
-/* M^l Y_l(w) against Y_l(Rw). */
+/* Compares M^l Y_l(w) with Y_l(Rw). */
 static double measure_rotation(int bands) {
     const lmp_quat q = check_random_rotation();
     const lmp_vec3 direction = random_anywhere();
@@ -162,12 +163,13 @@ static double measure_rotation(int bands) {
     for (size_t k = 0; k < LMP_SH_COUNT(bands); k++)
         gradient[k] = (float)expected[k];
     oracle_sh_eval(bands, rotated, expected);
-    lmp_sh_rotation(bands, q, matrices);
+    lmp_sh_make_rotation(bands, q, matrices);
     lmp_sh_rotate(bands, matrices, gradient, actual);
     return check_error(LMP_SH_COUNT(bands), expected, actual);
 }
 
-/* Within some widths of a lobe of exponent n², half of them; the rest anywhere. */
+/* Returns a direction: half of them within some widths of a lobe of exponent n², the rest anywhere.
+ */
 static lmp_vec3 random_near(lmp_vec3 axis, int bands) {
     const double spread = check_random() < 0.5 ? 3.0 / bands : 100;
     const lmp_vec3 off = check_random_direction();
@@ -178,10 +180,10 @@ static lmp_vec3 random_near(lmp_vec3 axis, int bands) {
     return (lmp_vec3) { (float)(v[0] / length), (float)(v[1] / length), (float)(v[2] / length) };
 }
 
-/* A Phong lobe of exponent n² under a sphere of r/d from 1e-4 to 0.95, relative to the largest
- * response to it. */
+/* Measures a Phong lobe of exponent n² under a sphere of r/d from 1e-4 to 0.95, relative to the
+ * largest response to it. */
 static double measure_response(int bands) {
-    static int last; /* bands of lambda_wide, whose quadrature takes long */
+    static int last; /* bands of lambda_wide, whose quadrature is slow */
     static double lambda_wide[LMP_BANDS_MAX];
     double zonal[LMP_BANDS_MAX], p[LMP_BANDS_MAX];
     float lambda[LMP_BANDS_MAX];
@@ -197,7 +199,7 @@ static double measure_response(int bands) {
     if (bands != last)
         oracle_lobe_phong(bands, bands * bands, lambda_wide);
     last = bands;
-    lmp_lobe_phong(bands, (float)(bands * bands), lambda);
+    lmp_lobe_make_phong(bands, (float)(bands * bands), lambda);
     oracle_cap_zonal(bands, sin2 / (1 + sqrt(1 - sin2)), zonal);
     const double length =
         sqrt(distance2 * (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]));
@@ -210,7 +212,7 @@ static double measure_response(int bands) {
     return fabs((double)lmp_lobe_response(bands, lambda, q, &light, 1, origin).r - sum) / largest;
 }
 
-/* The largest errors of some trials. */
+/* The largest errors of a number of trials. */
 typedef struct row_errors {
     double eval, pole, sphere, gradient, rotation, response;
 } row_errors;
@@ -219,7 +221,7 @@ static row_errors measure_row(int bands, int trials) {
     row_errors worst = { 0 };
     for (int trial = 0; trial < trials; trial++) {
         double gradient_error;
-        for (int k = 0; k < 10; k++) { /* they are quick, and their largest are rare */
+        for (int k = 0; k < 10; k++) { /* fast, with rare largest errors */
             worst.eval = fmax(worst.eval, measure_eval(bands, random_off_poles()));
             worst.pole = fmax(worst.pole, measure_eval(bands, random_pole()));
             worst.response = fmax(worst.response, measure_response(bands));
@@ -231,10 +233,10 @@ static row_errors measure_row(int bands, int trials) {
     return worst;
 }
 
-/* The bounds: twice the largest that ten seeds gave in the long form. */
+/* Checks every row. The bounds are twice the largest errors of ten seeds in the long form. */
 static void hold_every_row(int times) {
     static const struct {
-        int bands, trials; /* so many `times` */
+        int bands, trials; /* a number of `times` */
         row_errors bounds;
     } rows[] = {
         { 3, 100, { 6e-7, 6e-7, 1.3e-6, 2.5e-6, 4e-7, 1.1e-6 } },
@@ -278,7 +280,7 @@ static void errors_grow_slowly_with_the_number_of_bands(void **state) {
     hold_every_row(check_count(5, 40));
 }
 
-/* In the long form: by four seeds more. */
+/* The long form adds four seeds. */
 static void errors_of_other_seeds_are_as_large(void **state) {
     (void)state;
     for (int seed = 1; seed <= check_count(0, 4); seed++) {
@@ -289,7 +291,7 @@ static void errors_of_other_seeds_are_as_large(void **state) {
 
 /* --- near the surface of a light -------------------------------------------------------------- */
 
-/* The largest over spheres at d = (1 + gap) r. */
+/* Returns the largest error over spheres at d = (1 + gap) r. */
 static double measure_touching(int bands, double gap) {
     const double zero[3] = { 0, 0, 0 };
     double worst = 0, w[3];
@@ -330,7 +332,7 @@ static void the_last_digits_go_near_the_surface_of_a_light(void **state) {
 static int allocate_arrays(void **state) {
     (void)state;
     size_t size;
-    cli_error error;
+    base_error error;
     if (!file_read("docs/accuracy.md", 1 << 20, (void **)&page, &size, &error))
         return -1;
     expected = malloc(MOST * sizeof *expected);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The other ways to the zonal coefficients, and why the library does not take them. */
-#include "app/zonal/zonal.h"
+/* Other ways to compute zonal coefficients, and why the library does not use them. */
+#include "app/render/zonal.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/oracle.h"
 
@@ -100,7 +100,7 @@ static void small_lights_need_the_difference_form(void **state) {
     float printed[10], stable[10];
     oracle_cap_zonal(10, 1e-6 / (1 + sqrt(1 - 1e-6)), expected);
     zonal_printed(10, sqrtf(1 - 1e-6f), printed);
-    lmp_sphere_zonal(10, 1e-3f, 1, stable);
+    lmp_sphere_project_zonal(10, 1e-3f, 1, stable);
     assert_true(check_error(10, expected, printed) > 1e-2);
     CHECK_WITHIN(check_error(10, expected, stable), 1e-6);
 }

@@ -49,7 +49,8 @@ static void rough_ggx_keeps_nearly_all_energy_when_smooth(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* Its formulas as written there, material by material; F is 1 at grazing whatever F0 is. */
+/* Evaluates the formulas as appendix B writes them, material by material; F is 1 at grazing
+ * whatever F0 is. */
 static double appendix_b(double alpha, double f0, double base, const double l[3],
                          const double v[3]) {
     const double h[3] = { l[0] + v[0], l[1] + v[1], l[2] + v[2] };
@@ -79,7 +80,7 @@ static void ggx_is_that_of_gltf(void **state) {
         assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &brdf), LMP_OK);
         for (int n = 0; n < 2000; n++) {
             const lmp_vec3 at = random_upper(), off = random_upper();
-            /* around the mirror direction, and anywhere */
+            /* directions around the mirror direction, and anywhere */
             const double part = n % 2 ? 1 : 2 * (double)alphas[i] * check_random();
             double l[3], v[3], rgb[3];
             unit_upper((double)at.x, (double)at.y, (double)at.z, v);
@@ -118,7 +119,7 @@ static void nothing_is_reflected_below_the_surface(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* In double as in float; directions that are none reflect nothing, and NaN stays NaN. */
+/* Invalid directions reflect nothing, in double as in float, and NaN stays NaN. */
 static void only_finite_directions_above_the_surface_reflect(void **state) {
     (void)state;
     const double up[3] = { 0, 0.6, 0.8 }, bad[][3] = {
@@ -154,15 +155,16 @@ static void parameters_out_of_range_are_refused(void **state) {
     assert_int_equal(lmp_brdf_create_ggx(NULL, &(lmp_ggx) { .alpha_x = 0 }, &brdf),
                      LMP_ERROR_ARGUMENT);
     lmp_sgd parameters;
-    assert_int_equal(lmp_sgd_find("no-such-material", &parameters), LMP_ERROR_ARGUMENT);
-    assert_int_equal(lmp_sgd_find("", &parameters), LMP_ERROR_ARGUMENT);
-    assert_int_equal(lmp_sgd_find("fabric-beige", &parameters), LMP_OK);
+    assert_int_equal(lmp_brdf_find_sgd("no-such-material", &parameters), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_brdf_find_sgd("", &parameters), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_brdf_find_sgd("fabric-beige", &parameters), LMP_OK);
     parameters.alpha[1] = 0;
     assert_int_equal(lmp_brdf_create_sgd(NULL, &parameters, &brdf), LMP_ERROR_ARGUMENT);
     assert_null(brdf);
 }
 
-/* Of materials wide enough for this quadrature; numbers by another implementation. */
+/* The materials are wide enough for this quadrature; the numbers come from another implementation.
+ */
 static void sgd_materials_have_their_published_albedo(void **state) {
     (void)state;
     static const struct {
@@ -190,7 +192,7 @@ static void a_fit_of_wild_numbers_is_finite(void **state) {
     (void)state;
     lmp_sgd parameters;
     lmp_brdf *brdf;
-    assert_int_equal(lmp_sgd_find("gold-metallic-paint", &parameters), LMP_OK);
+    assert_int_equal(lmp_brdf_find_sgd("gold-metallic-paint", &parameters), LMP_OK);
     parameters.p[0] = 1e38;
     parameters.rho_s[1] = 1e38;
     assert_int_equal(lmp_brdf_create_sgd(NULL, &parameters, &brdf), LMP_OK);
@@ -206,8 +208,8 @@ static void a_fit_of_wild_numbers_is_finite(void **state) {
 static void every_sgd_material_is_finite_everywhere(void **state) {
     (void)state;
     size_t count = 0;
-    for (; lmp_sgd_name(count); count++) {
-        lmp_brdf *brdf = sgd_brdf(lmp_sgd_name(count));
+    for (; lmp_brdf_sgd_name(count); count++) {
+        lmp_brdf *brdf = sgd_brdf(lmp_brdf_sgd_name(count));
         for (int n = 0; n < 300; n++) {
             lmp_vec3 a = random_upper(), b = random_upper();
             if (n % 3 == 0)

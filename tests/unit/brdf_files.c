@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Files of BRDFs, MERL's and RGL's: by round trips, without memory, and damaged. */
+/* Files of BRDFs, MERL's and RGL's: round trips, lack of memory, and damage. */
 #include "tests/oracle/oracle.h"
 #include "tests/unit/brdfs.h"
 
@@ -32,7 +32,7 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* The median of |copy - original| / original (green) over random pairs. */
+/* Returns the median of |copy - original| / original (green) over random pairs. */
 static double median_error(const lmp_brdf *original, const lmp_brdf *copy) {
     static double errors[PAIRS];
     for (int n = 0; n < PAIRS; n++) {
@@ -69,16 +69,17 @@ static void round_trips(writer write, reader read, const double bounds[7]) {
 static void merl_round_trips_to_its_cells(void **state) {
     (void)state;
     const double bounds[7] = { 1e-6, 3e-2, 3e-2, 1e-2, 3e-2, 1e-2, 0 };
-    round_trips(lmp_brdf_write_merl, lmp_brdf_read_merl, bounds);
+    round_trips(lmp_brdf_encode_merl, lmp_brdf_read_merl, bounds);
 }
 
 static void rgl_round_trips_to_its_grid(void **state) {
     (void)state;
     const double bounds[7] = { 1e-2, 3e-2, 1e-2, 1e-2, 1e-2, 1e-2, 3e-2 };
-    round_trips(lmp_brdf_write_rgl, lmp_brdf_read_rgl, bounds);
+    round_trips(lmp_brdf_encode_rgl, lmp_brdf_read_rgl, bounds);
 }
 
-/* The pair of directions at the center of a cell of a full file (Matusik et al. 2003), h in x-z. */
+/* Finds the pair of directions at the center of a cell of a full file (Matusik et al. 2003), h in
+ * x-z. */
 static void merl_center(int theta_h, int theta_d, int phi_d, double a[3], double b[3]) {
     const double root = (theta_h + 0.5) / 90, h = ORACLE_PI / 2 * root * root;
     const double d = ORACLE_PI / 2 * (theta_d + 0.5) / 90, phi = ORACLE_PI * (phi_d + 0.5) / 180;
@@ -214,7 +215,7 @@ typedef lmp_result (*attempt)(const lmp_host *host);
 
 static lmp_result make_every_kind(const lmp_host *host) {
     lmp_sgd parameters;
-    assert_int_equal(lmp_sgd_find("gold-metallic-paint", &parameters), LMP_OK);
+    assert_int_equal(lmp_brdf_find_sgd("gold-metallic-paint", &parameters), LMP_OK);
     const lmp_ggx desc = { .alpha_x = 0.5f };
     lmp_brdf *brdfs[4] = { NULL };
     lmp_result results[4] = {
@@ -246,11 +247,11 @@ static lmp_result write_with(const lmp_host *host, writer write) {
 }
 
 static lmp_result write_merl(const lmp_host *host) {
-    return write_with(host, lmp_brdf_write_merl);
+    return write_with(host, lmp_brdf_encode_merl);
 }
 
 static lmp_result write_rgl(const lmp_host *host) {
-    return write_with(host, lmp_brdf_write_rgl);
+    return write_with(host, lmp_brdf_encode_rgl);
 }
 
 static void every_failing_allocation_is_reported(void **state) {

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What the reader of RGL tensor files makes of them. */
+/* The reader of RGL tensor files: what it makes of them. */
 #include "tests/oracle/oracle.h"
 #include "tests/unit/tensor.h"
 
 /* --- values ----------------------------------------------------------------------------------- */
 
-/* The value over the second cosine, times ndf / (4 sigma) where the file says so. */
+/* The value is that of the file over the second cosine, times ndf / (4 sigma) where the file says
+ * so. */
 static void samples_are_scaled_by_the_model_and_the_cosine(void **state) {
     (void)state;
     for (int jacobian = 0; jacobian < 2; jacobian++) {
@@ -27,7 +28,7 @@ static void samples_are_scaled_by_the_model_and_the_cosine(void **state) {
     }
 }
 
-/* As the database stores isotropic materials: two equal slices, at -pi and pi. */
+/* The database stores isotropic materials as two equal slices, at -pi and pi. */
 static void files_of_two_azimuths_are_isotropic(void **state) {
     (void)state;
     for (uint64_t phis = 1; phis <= 2; phis++) {
@@ -63,7 +64,7 @@ static void negative_samples_reflect_nothing(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* A field of bytes that nobody knows, and `luminance`, are passed over. */
+/* Unknown fields of bytes, and `luminance`, are skipped. */
 static void unknown_fields_are_skipped(void **state) {
     (void)state;
     tensor t = flat_rgb();
@@ -100,8 +101,8 @@ static void multiply(const double m[3][3], const double v[3], double out[3]) {
         out[r] = m[r][0] * v[0] + m[r][1] * v[1] + m[r][2] * v[2];
 }
 
-/* Linear sRGB of CIE XYZ under illuminant E, step by step: Bradford's cones, D65's white over E's,
- * back, and the primaries of IEC 61966-2-1. */
+/* Converts CIE XYZ under illuminant E to linear sRGB, step by step: Bradford's cones, D65's white
+ * over E's, back, and the primaries of IEC 61966-2-1. */
 static void srgb_of(const double xyz[3], double rgb[3]) {
     static const double cones[3][3] = { { 0.8951, 0.2664, -0.1614 },
                                         { -0.7502, 1.7135, 0.0367 },
@@ -123,8 +124,8 @@ static void srgb_of(const double xyz[3], double rgb[3]) {
     multiply(primaries, adapted, rgb);
 }
 
-/* Lines of the CIE's own table, 20 nm apart, one by one on a gray ground, which keeps negative
- * colors in sight. */
+/* Lines of the CIE's own table, 20 nm apart, are read one by one over a gray base, which keeps
+ * negative colors visible. */
 static void spectral_lines_have_the_color_of_the_observer(void **state) {
     (void)state;
     enum { LINES = 13 };
@@ -160,7 +161,7 @@ static void spectral_lines_have_the_color_of_the_observer(void **state) {
 
 /* --- the parameterization --------------------------------------------------------------------- */
 
-/* A bilinear function on the unit square, values row after row. */
+/* Evaluates a bilinear function on the unit square, with values row after row. */
 static double bilinear(const float *values, int width, int height, double x, double y) {
     const double u = x * (width - 1), v = y * (height - 1);
     const int i = u < width - 2 ? (int)u : width - 2, j = v < height - 2 ? (int)v : height - 2;
@@ -170,7 +171,7 @@ static double bilinear(const float *values, int width, int height, double x, dou
            t * ((1 - s) * (double)at[width] + s * (double)at[width + 1]);
 }
 
-/* ∫ along x from 0 to `end` of a row at y: pieces are linear, so that their middles serve. */
+/* Integrates along x from 0 to `end` of a row at y: pieces are linear, so midpoints suffice. */
 static double row_integral(const float *values, int width, int height, double end, double y) {
     double sum = 0;
     for (int i = 0; i < width - 1; i++) {
@@ -181,7 +182,7 @@ static double row_integral(const float *values, int width, int height, double en
     return sum;
 }
 
-/* ∫ of the rows from y = 0 to `end`, which are linear between nodes, too. */
+/* Integrates the rows from y = 0 to `end`; they are linear between nodes, too. */
 static double area_integral(const float *values, int width, int height, double end) {
     double sum = 0;
     for (int j = 0; j < height - 1; j++) {
@@ -195,8 +196,8 @@ static double area_integral(const float *values, int width, int height, double e
 
 enum { THETAS = 4, PHIS = 5, DENSITY_X = 5, DENSITY_Y = 6, VALUE_X = 4, VALUE_Y = 6 };
 
-/* A file of random values: anisotropic over a whole turn, or isotropic. Rows of density at the
- * bottom of a slice may be 0. */
+/* Makes a file of random values: anisotropic over a whole turn, or isotropic. Rows of density at
+ * the bottom of a slice may be 0. */
 static tensor random_tensor(int phis, int zero_rows) {
     tensor t = { 0 };
     field *theta = add(&t, "theta_i", F32, SHAPE(THETAS), 0);
@@ -220,7 +221,7 @@ static tensor random_tensor(int phis, int zero_rows) {
     return t;
 }
 
-/* The nodes around an angle and how far it is from the first of them. */
+/* Finds the nodes around an angle; returns its distance from the first of them. */
 static double between(const float *nodes, int count, double angle, int *first) {
     for (*first = 0; *first < count - 2 && (double)nodes[*first + 1] <= angle;)
         ++*first;
@@ -230,8 +231,9 @@ static double between(const float *nodes, int count, double angle, int *first) {
     return fmin(fmax((angle - low) / (high - low), 0), 1);
 }
 
-/* Dupuy and Jakob (2018), by the integrals that define it: half vectors are spread over the square
- * by the density of visible normals, each slice's integral 1, of the four slices around a. */
+/* Evaluates by the integrals that define the parameterization (Dupuy and Jakob 2018): half vectors
+ * are distributed over the square by the density of visible normals, each slice's integral 1, of
+ * the four slices around a. */
 static void value_by_integrals(tensor *t, const double a[3], const double b[3], double rgb[3]) {
     const int phis = (int)find(t, "phi_i")->shape[0];
     const double length = sqrt((a[0] + b[0]) * (a[0] + b[0]) + (a[1] + b[1]) * (a[1] + b[1]) +
@@ -299,28 +301,28 @@ static void values_follow_the_density_of_visible_normals(void **state) {
 
 /* --- folding ---------------------------------------------------------------------------------- */
 
-/* Takes a written file apart. */
+/* Parses a written file. */
 static tensor taken_apart(const unsigned char *bytes) {
     tensor t = { 0 };
     static const char *const names[] = { "theta_i", "phi_i", "ndf",      "sigma",
                                          "vndf",    "rgb",   "jacobian", NULL };
     const unsigned char *p = bytes + 14;
-    for (uint32_t left = lmp_bytes_load_u32(&p); left > 0; left--) {
-        const size_t length = lmp_bytes_load_u16(&p);
+    for (uint32_t left = lmpi_bytes_load_u32(&p); left > 0; left--) {
+        const size_t length = lmpi_bytes_load_u16(&p);
         const char *const name = (const char *)p;
         p += length;
-        const unsigned dimensions = lmp_bytes_load_u16(&p), type = *p++;
-        const unsigned char *data = bytes + lmp_bytes_at_u64(p);
+        const unsigned dimensions = lmpi_bytes_load_u16(&p), type = *p++;
+        const unsigned char *data = bytes + lmpi_bytes_at_u64(p);
         uint64_t shape[5];
         p += 8;
         for (unsigned d = 0; d < dimensions; d++, p += 8)
-            shape[d] = lmp_bytes_at_u64(p);
+            shape[d] = lmpi_bytes_at_u64(p);
         for (int i = 0; names[i]; i++) {
             if (strlen(names[i]) != length || memcmp(names[i], name, length) != 0)
                 continue;
             field *f = add(&t, names[i], type, dimensions, shape, 0);
             for (size_t k = 0; k < field_count(f); k++)
-                f->values[k] = type == U8 ? (float)data[k] : lmp_bytes_at_f32(data + 4 * k);
+                f->values[k] = type == U8 ? (float)data[k] : lmpi_bytes_at_f32(data + 4 * k);
         }
     }
     assert_int_equal(t.count, 7);
@@ -360,7 +362,7 @@ static void parts_of_a_turn_are_folded(void **state) {
     void *bytes = NULL;
     size_t size = 0;
     assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &original), LMP_OK);
-    assert_int_equal(lmp_brdf_write_rgl(NULL, original, &bytes, &size), LMP_OK);
+    assert_int_equal(lmp_brdf_encode_rgl(NULL, original, &bytes, &size), LMP_OK);
     lmp_brdf *whole = read_bytes(bytes, size);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         tensor t = taken_apart(bytes);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the reader of RGL tensor files refuses, and damage that it survives. */
+/* The reader of RGL tensor files: what it refuses, and damage that it survives. */
 #include "tests/unit/tensor.h"
 
 static void expect_parse_error(const unsigned char *bytes, size_t size, lmp_result result,
@@ -14,7 +14,7 @@ static void expect_parse_error(const unsigned char *bytes, size_t size, lmp_resu
     assert_int_equal(lmp_brdf_read_rgl(NULL, bytes, size, NULL, &brdf), result);
 }
 
-/* Refuses the tensor, which is dropped. */
+/* Expects a tensor to be refused, and frees it. */
 static void expect_refusal(tensor t, const char *text) {
     size_t size = 0;
     unsigned char *bytes = bytes_of(&t, &size);
@@ -36,7 +36,7 @@ static void headers_are_checked(void **state) {
     bytes[0] = 'T';
     expect_parse_error(bytes, size, LMP_ERROR_FORMAT, "not a tensor file");
     bytes[0] = 't';
-    lmp_bytes_store_u32(bytes + 14, 0xffffffff);
+    lmpi_bytes_store_u32(bytes + 14, 0xffffffff);
     expect_parse_error(bytes, size, LMP_ERROR_FORMAT, "field 7");
     free(bytes);
 }
@@ -76,9 +76,9 @@ static void directories_are_checked(void **state) {
     }
 }
 
-/* A field that nobody knows, at the end of a file: of each type as many elements as fit into 24
- * bytes, and one more. The types as the format counts them, from 1: integers of 8, 16, 32 and 64
- * bits, without and with a sign, then floating-point numbers of 16, 32 and 64. */
+/* An unknown field at the end of a file holds, for each type, as many elements as fit into 24
+ * bytes, and one more. The format numbers types from 1: integers of 8, 16, 32 and 64 bits, without
+ * and with a sign, then floating-point numbers of 16, 32 and 64. */
 static void elements_have_the_size_of_their_type(void **state) {
     (void)state;
     static const uint64_t sizes[] = { 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8 };
@@ -90,25 +90,25 @@ static void elements_have_the_size_of_their_type(void **state) {
         unsigned char *bytes = bytes_of(&t, &size);
         drop(&t);
         bytes[end - 17] = (unsigned char)type;
-        lmp_bytes_store_u64(bytes + end - 8, 24 / sizes[type - 1]);
+        lmpi_bytes_store_u64(bytes + end - 8, 24 / sizes[type - 1]);
         lmp_brdf_destroy(read_bytes(bytes, size));
-        lmp_bytes_store_u64(bytes + end - 8, 24 / sizes[type - 1] + 1);
+        lmpi_bytes_store_u64(bytes + end - 8, 24 / sizes[type - 1] + 1);
         expect_parse_error(bytes, size, LMP_ERROR_FORMAT, "end past the file's");
         free(bytes);
     }
 }
 
-/* Each dimension small enough, their product too large for the file, or for 64 bits. */
+/* Each dimension is small enough, but their product is too large for the file, or for 64 bits. */
 static void products_of_dimensions_are_checked(void **state) {
     (void)state;
     for (int shift = 4; shift <= 40; shift += 9) {
         tensor t = flat_rgb();
         size_t size = 0;
         unsigned char *bytes = bytes_of(&t, &size);
-        const size_t shape = directory_size(&t) - 40; /* of rgb, the last field */
+        const size_t shape = directory_size(&t) - 40; /* shape of rgb, the last field */
         drop(&t);
         for (size_t d = 0; d < 5; d++)
-            lmp_bytes_store_u64(bytes + shape + 8 * d, UINT64_C(1) << shift);
+            lmpi_bytes_store_u64(bytes + shape + 8 * d, UINT64_C(1) << shift);
         expect_parse_error(bytes, size, LMP_ERROR_FORMAT, "more elements than the file has bytes");
         free(bytes);
     }
@@ -295,7 +295,7 @@ static void every_failing_allocation_is_reported(void **state) {
                 break;
             }
             assert_int_equal(result, LMP_ERROR_MEMORY);
-            assert_non_null(strstr(error.text, "no memory"));
+            assert_non_null(strstr(error.text, "out of memory"));
         }
         free(bytes);
     }

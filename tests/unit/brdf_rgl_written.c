@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The model in a tensor file that the library writes: what readers other than ours sample by. From
+/* The model in a tensor file that the library writes, by which readers other than ours sample: by
  * its definition, the distribution of normals seen in retro-reflection, D ~ f_r(m, m) cos² of their
  * mean color. */
 #include "src/base/bytes.h"
@@ -16,13 +16,13 @@ static lmp_brdf *written_and_read(lmp_brdf *brdf) {
     lmp_brdf *copy;
     void *data;
     size_t size;
-    assert_int_equal(lmp_brdf_write_rgl(NULL, brdf, &data, &size), LMP_OK);
+    assert_int_equal(lmp_brdf_encode_rgl(NULL, brdf, &data, &size), LMP_OK);
     assert_int_equal(lmp_brdf_read_rgl(NULL, data, size, NULL, &copy), LMP_OK);
     free(data);
     return copy;
 }
 
-/* The normal of a node: theta = pi/2 u², a turn of phi from -pi on. */
+/* Finds the normal of a node: theta = pi/2 u², with phi over a turn from -pi on. */
 static void node_of(const brdf_grid *grid, int i, double m[3]) {
     const double u = (double)(i % grid->width) / (grid->width - 1);
     const double v = (double)(i / grid->width) / (grid->height - 1);
@@ -38,8 +38,8 @@ static double seen_back(const lmp_brdf *brdf, const double m[3]) {
     return (rgb[0] + rgb[1] + rgb[2]) / 3 * m[2] * m[2];
 }
 
-/* Normals are as frequent as the light they send back: the most frequent 1, the fewest a
- * thousandth. */
+/* Checks that normals are as frequent as the light they reflect back: the most frequent count 1,
+ * the fewest a thousandth. */
 static void check_normals(lmp_brdf *brdf) {
     lmp_brdf *copy = written_and_read(brdf);
     const brdf_grid *ndf = &copy->rgl.ndf;
@@ -67,7 +67,7 @@ static void normals_are_those_seen_in_retro_reflection(void **state) {
     lmp_brdf *brdf;
     for (int i = 0; i < 2; i++) {
         lmp_sgd sgd;
-        assert_int_equal(lmp_sgd_find(names[i], &sgd), LMP_OK);
+        assert_int_equal(lmp_brdf_find_sgd(names[i], &sgd), LMP_OK);
         assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
         check_normals(brdf);
     }
@@ -82,7 +82,7 @@ static void normals_are_those_seen_in_retro_reflection(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* Of D = cos² theta: pi/2 from above, pi/8 along the horizon, and in between the integral. */
+/* For D = cos² theta: pi/2 from above, pi/8 along the horizon, and in between the integral. */
 static void their_projected_area_is_the_integral_over_the_hemisphere(void **state) {
     (void)state;
     enum { STEPS = 200 };
@@ -107,22 +107,22 @@ static void their_projected_area_is_the_integral_over_the_hemisphere(void **stat
     lmp_brdf_destroy(brdf);
 }
 
-/* A field of a tensor file, found by the format: 18 bytes, then of each field its name, shape and
- * place. Sets how many dimensions there are and how long they are. */
+/* Finds a field of a tensor file by the format: 18 bytes, then for each field its name, shape and
+ * offset. Sets the number of dimensions and their lengths. */
 static const unsigned char *field_of(const unsigned char *bytes, const char *wanted, size_t *count,
                                      size_t shape[5]) {
     const unsigned char *p = bytes + 18;
     for (;;) {
-        const size_t length = lmp_bytes_load_u16(&p);
+        const size_t length = lmpi_bytes_load_u16(&p);
         const bool found = length == strlen(wanted) && memcmp(p, wanted, length) == 0;
         p += length;
-        const int dimensions = lmp_bytes_load_u16(&p);
-        p++;                                          /* the type */
-        const size_t offset = lmp_bytes_load_u32(&p); /* of 8 bytes, the upper ones 0 */
+        const int dimensions = lmpi_bytes_load_u16(&p);
+        p++;                                           /* the type */
+        const size_t offset = lmpi_bytes_load_u32(&p); /* of 8 bytes, the upper ones 0 */
         p += 4;
         *count = 1;
         for (int d = 0; d < dimensions; d++) {
-            shape[d] = lmp_bytes_load_u32(&p);
+            shape[d] = lmpi_bytes_load_u32(&p);
             p += 4;
             *count *= shape[d];
         }
@@ -131,7 +131,7 @@ static const unsigned char *field_of(const unsigned char *bytes, const char *wan
     }
 }
 
-/* As the format has it: the mean of the three channels, of each sample of each slice. */
+/* By the format, luminance is the mean of the three channels, for each sample of each slice. */
 static void luminance_is_the_mean_of_the_channels(void **state) {
     (void)state;
     const lmp_ggx ggx = { 0.6f, 0.3f, { 0.9f, 0.5f, 0.1f }, { 0, 0.1f, 0.3f } };
@@ -140,7 +140,7 @@ static void luminance_is_the_mean_of_the_channels(void **state) {
     size_t size, count, values;
     size_t shape[5];
     assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
-    assert_int_equal(lmp_brdf_write_rgl(NULL, brdf, &data, &size), LMP_OK);
+    assert_int_equal(lmp_brdf_encode_rgl(NULL, brdf, &data, &size), LMP_OK);
     const unsigned char *luminance = field_of(data, "luminance", &count, shape);
     const unsigned char *rgb = field_of(data, "rgb", &values, shape);
     const size_t plane = shape[3] * shape[4], slices = shape[0] * shape[1];
@@ -149,9 +149,9 @@ static void luminance_is_the_mean_of_the_channels(void **state) {
     for (size_t i = 0; i < count; i++) {
         double sum = 0;
         for (size_t c = 0; c < 3; c++)
-            sum += (double)lmp_bytes_at_f32(rgb + 4 * ((3 * (i / plane) + c) * plane + i % plane));
+            sum += (double)lmpi_bytes_at_f32(rgb + 4 * ((3 * (i / plane) + c) * plane + i % plane));
         const double expected = fmax(sum / 3, 0);
-        CHECK_WITHIN(fabs((double)lmp_bytes_at_f32(luminance + 4 * i) - expected),
+        CHECK_WITHIN(fabs((double)lmpi_bytes_at_f32(luminance + 4 * i) - expected),
                      1e-6 * (1e-30 + expected));
     }
     free(data);

@@ -31,7 +31,7 @@ static void random_above(double unit[3]) {
     unit[2] = z / length;
 }
 
-static void fibers_are_those_of_the_specification(void **state) {
+static void sheen_is_that_of_the_specification(void **state) {
     (void)state;
     for (int r = 0; r < 5; r++) {
         lmp_brdf *brdf = sheen(roughnesses[r], (lmp_rgb) { 1, 0.5f, 0.25f }, black);
@@ -43,7 +43,7 @@ static void fibers_are_those_of_the_specification(void **state) {
             const double expected = oracle_sheen((double)roughnesses[r], light, view);
             const double arrives = fmax(oracle_sheen_gain((double)roughnesses[r], light[2]),
                                         oracle_sheen_gain((double)roughnesses[r], view[2]));
-            const bool limited = arrives > 0.99; /* by tables of the library's and the test's */
+            const bool limited = arrives > 0.99; /* by tables of the library and of the test */
             const double between = fmin(light[2], view[2]) < 1e-3 ? 0.02 : 5e-3;
             const double most = (limited ? between : 1e-9) * expected + 1e-300;
             CHECK_WITHIN(fabs(rgb[0] - expected), most);
@@ -53,25 +53,25 @@ static void fibers_are_those_of_the_specification(void **state) {
     }
 }
 
-static void the_base_has_what_the_fibers_leave(void **state) {
+static void the_base_has_what_the_sheen_leaves(void **state) {
     (void)state;
     for (int r = 0; r < 5; r++) {
         const double rough = (double)roughnesses[r];
-        lmp_brdf *fibers = sheen(roughnesses[r], (lmp_rgb) { 0.2f, 0.8f, 0 }, black);
+        lmp_brdf *white = sheen(roughnesses[r], (lmp_rgb) { 0.2f, 0.8f, 0 }, black);
         lmp_brdf *both =
             sheen(roughnesses[r], (lmp_rgb) { 0.2f, 0.8f, 0 }, (lmp_rgb) { 0.5f, 0.5f, 0.5f });
         for (int k = 0; k < 6; k++) {
             const double to = 0.2 * k, from = 1.45 - 0.15 * k;
             const double light[3] = { sin(to), 0, cos(to) }, view[3] = { 0, sin(from), cos(from) };
             double over[3], all[3];
-            lmp_brdf_eval_double(fibers, light, view, over);
+            lmp_brdf_eval_double(white, light, view, over);
             lmp_brdf_eval_double(both, light, view, all);
             const double left = fmin(1 - (double)0.8f * oracle_sheen_albedo(rough, to),
                                      1 - (double)0.8f * oracle_sheen_albedo(rough, from));
             for (int c = 0; c < 3; c++)
                 CHECK_WITHIN(fabs(all[c] - over[c] - left * 0.5 / ORACLE_PI), 2e-4);
         }
-        lmp_brdf_destroy(fibers);
+        lmp_brdf_destroy(white);
         lmp_brdf_destroy(both);
     }
 }
@@ -92,8 +92,8 @@ static void sheen_is_reciprocal(void **state) {
     }
 }
 
-/* What a white sky gives a view, by midpoints in the cube root of the light's cosine and the root
- * of its azimuth. */
+/* Returns what a white sky gives a view, by midpoints in the cube root of the light's cosine and
+ * the square root of its azimuth. */
 static double albedo(const lmp_brdf *brdf, double cosine) {
     enum { NODES = 80 };
     const double view[3] = { sqrt(1 - cosine * cosine), 0, cosine };
@@ -110,26 +110,26 @@ static double albedo(const lmp_brdf *brdf, double cosine) {
     return sum / (NODES * NODES);
 }
 
-/* From the normal to past the last tenth of a degree; where the specification's formulas reflect
- * three times what arrives, these reflect nearly all of it. */
+/* The views range from the normal to past the last tenth of a degree; where the specification's
+ * formulas reflect three times what arrives, these reflect nearly all of it. */
 static void sheen_reflects_no_more_than_arrives(void **state) {
     (void)state;
     static const double cosines[] = { 1,    0.5,   0.2,   0.1,   0.05,   0.03, 0.02,
                                       0.01, 0.005, 0.003, 0.001, 0.0003, 1e-4, 1e-5 };
     static const float smooth[] = { 0.07f, 0.085f, 0.1f, 0.15f, 0.2f, 0.25f, 0.3f, 0.6f, 1 };
     for (size_t r = 0; r < sizeof smooth / sizeof *smooth; r++) {
-        lmp_brdf *fibers = sheen(smooth[r], (lmp_rgb) { 1, 1, 1 }, black);
+        lmp_brdf *white = sheen(smooth[r], (lmp_rgb) { 1, 1, 1 }, black);
         lmp_brdf *cloth = sheen(smooth[r], (lmp_rgb) { 0.7f, 0.7f, 0.7f }, (lmp_rgb) { 1, 1, 1 });
         double largest = 0;
         for (size_t k = 0; k < sizeof cosines / sizeof *cosines; k++) {
-            largest = fmax(largest, albedo(fibers, cosines[k]));
+            largest = fmax(largest, albedo(white, cosines[k]));
             CHECK_WITHIN(albedo(cloth, cosines[k]), 1.001);
         }
         print_message("roughness %.3f: at most %.4f\n", (double)smooth[r], largest);
         CHECK_WITHIN(largest, 1);
         if (smooth[r] <= 0.2f)
             CHECK_WITHIN(0.99, largest);
-        lmp_brdf_destroy(fibers);
+        lmp_brdf_destroy(white);
         lmp_brdf_destroy(cloth);
     }
 }
@@ -150,9 +150,9 @@ static void sheen_out_of_range_is_refused(void **state) {
 
 /* --- under lights ----------------------------------------------------------------------------- */
 
-/* The rms error of caps of half angle 0.3 through the zenith, in parts of the largest. */
+/* Returns the rms error of caps of half angle 0.3 through the zenith, relative to the largest. */
 static double error_of_bands(int bands, float roughness) {
-    const double half = 0.3;
+    const double half_angle = 0.3;
     const lmp_brdf_table_desc desc = { .bands = bands };
     lmp_brdf *brdf = sheen(roughness, (lmp_rgb) { 1, 1, 1 }, black);
     lmp_brdf_table *table = NULL;
@@ -167,9 +167,9 @@ static double error_of_bands(int bands, float roughness) {
                                           .view = { (float)sin(angle), 0, (float)cos(angle) } };
             const lmp_light cap = { .kind = LMP_LIGHT_CAP,
                                     .direction = { (float)sin(to), 0, (float)cos(to) },
-                                    .angle = (float)half,
+                                    .angle = (float)half_angle,
                                     .radiance = { 1, 1, 1 } };
-            const double expected = oracle_sheen_cap((double)roughness, to, half, angle);
+            const double expected = oracle_sheen_cap((double)roughness, to, half_angle, angle);
             const lmp_rgb color = lmp_shade(NULL, &material, &surface, &cap, 1);
             check_errors_add(&errors, fabs((double)color.g - expected));
             peak = fmax(peak, expected);
@@ -183,7 +183,7 @@ static void bands_come_to_the_integral_of_the_specification(void **state) {
     (void)state;
     static const struct {
         float roughness;
-        double most[3]; /* at 5, 10 and 20 bands */
+        double most[3]; /* bounds at 5, 10 and 20 bands */
     } rows[] = { { 0.3f, { 0.04, 5e-3, 1e-3 } },
                  { 0.5f, { 0.05, 5e-3, 1e-3 } },
                  { 1, { 0.05, 5e-3, 1e-3 } } };
@@ -202,8 +202,8 @@ static void bands_come_to_the_integral_of_the_specification(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fibers_are_those_of_the_specification),
-        cmocka_unit_test(the_base_has_what_the_fibers_leave),
+        cmocka_unit_test(sheen_is_that_of_the_specification),
+        cmocka_unit_test(the_base_has_what_the_sheen_leaves),
         cmocka_unit_test(sheen_is_reciprocal),
         cmocka_unit_test(sheen_reflects_no_more_than_arrives),
         cmocka_unit_test(sheen_out_of_range_is_refused),

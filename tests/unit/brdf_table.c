@@ -6,25 +6,26 @@
 #include <math.h>
 #include <string.h>
 
-/* The m >= 0 coefficients of the red plane, l outer, against a row of a vector file; those of m < 0
- * must vanish. */
+/* Returns the error of the m >= 0 coefficients of the red plane, l outer, against a row of a vector
+ * file; those of m < 0 must vanish. */
 static double error_of_row(const float *sh, const double expected[55]) {
-    float half[55];
+    float reduced[55];
     double odd = 0;
     for (int l = 0; l < 10; l++)
         for (int m = 0; m <= l; m++) {
-            half[LMP_SH_HALF_INDEX(l, m)] = sh[LMP_SH_INDEX(l, m)];
+            reduced[LMP_SH_HALF_INDEX(l, m)] = sh[LMP_SH_INDEX(l, m)];
             if (m > 0)
                 odd = fmax(odd, fabs((double)sh[LMP_SH_INDEX(l, -m)]));
         }
-    return fmax(odd, check_error(55, expected, half));
+    return fmax(odd, check_error(55, expected, reduced));
 }
 
 static lmp_vec3 view_at(double theta) {
     return (lmp_vec3) { (float)sin(theta), 0, (float)cos(theta) };
 }
 
-/* Exponent 0 is diffuse; the clamp of a wide lobe is an edge that quadrature finds slowly. */
+/* Exponent 0 is diffuse; the clamp of a wide lobe is an edge on which quadrature converges slowly.
+ */
 static void lambert_and_phong_match_the_vectors(void **state) {
     (void)state;
     check_csv *csv = check_csv_open("brdf_table.csv");
@@ -78,7 +79,7 @@ static void white_furnace_lambert_reflects_all(void **state) {
     assert_int_equal(info.window, LMP_WINDOW_NONE);
     for (int view = 0; view < info.views; view++) {
         lmp_rgb exact, series;
-        lmp_brdf_table_albedo(table, view, 0, &exact, &series);
+        lmp_brdf_table_find_albedo(table, view, 0, &exact, &series);
         CHECK_WITHIN(fabsf(exact.g - 1), 1e-6);
         /* what the truncated series leaks below the horizon */
         CHECK_WITHIN(fabsf(series.g - 1), 2e-2);
@@ -96,7 +97,7 @@ static void level_views_read_the_last_row(void **state) {
     const size_t count = 3 * lmp_brdf_table_describe(table).count;
     float rgb[3 * 10];
     assert_int_equal(count, 3 * 10);
-    lmp_brdf_table_view(table, 0, 0, rgb);
+    lmp_brdf_table_interpolate(table, 0, 0, rgb);
     assert_memory_equal(rgb, lmp_brdf_table_coefficients(table) + 8 * count, sizeof rgb);
     lmp_brdf_table_destroy(table);
     lmp_brdf_destroy(brdf);
@@ -108,7 +109,7 @@ static void the_albedo_is_that_of_each_channel(void **state) {
     lmp_brdf_table *table = NULL;
     assert_int_equal(lmp_brdf_table_create(NULL, NULL, brdf, &table), LMP_OK);
     lmp_rgb exact, series;
-    lmp_brdf_table_albedo(table, 3, 0, &exact, &series);
+    lmp_brdf_table_find_albedo(table, 3, 0, &exact, &series);
     CHECK_WITHIN(fabsf(exact.r - 0.9f), 1e-6);
     CHECK_WITHIN(fabsf(exact.g - 0.5f), 1e-6);
     CHECK_WITHIN(fabsf(exact.b - 0.2f), 1e-6);
@@ -119,7 +120,8 @@ static void the_albedo_is_that_of_each_channel(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* Bands of l + 1 coefficients where m < 0 is left out, else of 2 l + 1. */
+/* Checks the window of a table, whose bands have l + 1 coefficients where m < 0 is left out, else 2
+ * l + 1. */
 static void check_window(lmp_brdf *brdf, bool mirrored) {
     enum { BANDS = 8, VIEWS = 3, AZIMUTHS = 4 };
     lmp_brdf_table *plain = NULL, *windowed = NULL;
@@ -131,7 +133,7 @@ static void check_window(lmp_brdf *brdf, bool mirrored) {
     desc.window_size = 9;
     assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &windowed), LMP_OK);
     float weights[BANDS];
-    lmp_sh_window(BANDS, LMP_WINDOW_LANCZOS, 9, weights);
+    lmp_sh_make_window(BANDS, LMP_WINDOW_LANCZOS, 9, weights);
     const float *a = lmp_brdf_table_coefficients(plain), *b = lmp_brdf_table_coefficients(windowed);
     for (int plane = 0; plane < 3 * VIEWS * (mirrored ? 1 : AZIMUTHS); plane++)
         for (int l = 0; l < BANDS; l++)
@@ -142,15 +144,15 @@ static void check_window(lmp_brdf *brdf, bool mirrored) {
     lmp_brdf_destroy(brdf);
 }
 
-/* The window of the paper weakens each band as lmp_sh_window says. */
+/* The window of the paper scales each band as lmp_sh_make_window does. */
 static void windows_scale_the_bands(void **state) {
     (void)state;
     check_window(phong(10), true);
     check_window(ggx(0.5f, 0.3f), false);
 }
 
-/* The largest error of interpolated coefficients over views off the nodes, relative to the largest
- * coefficient. */
+/* Returns the largest error of interpolated coefficients over views off the nodes, relative to the
+ * largest coefficient. */
 static double interpolation_error(const lmp_brdf *brdf, int views, int azimuths, double phi) {
     lmp_brdf_table *table = NULL;
     const lmp_brdf_table_desc desc = {
@@ -159,7 +161,7 @@ static double interpolation_error(const lmp_brdf *brdf, int views, int azimuths,
     assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
     float matrices[LMP_SH_ROTATION_COUNT(10)], sh[300], rotated[300], rgb[300];
     const lmp_quat back = { 0, 0, (float)sin(-phi / 2), (float)cos(phi / 2) };
-    lmp_sh_rotation(10, back, matrices);
+    lmp_sh_make_rotation(10, back, matrices);
     double worst = 0, largest = 0;
     for (int n = 0; n < 40; n++) {
         const double theta = 0.01 + 1.45 * n / 39;
@@ -168,7 +170,7 @@ static double interpolation_error(const lmp_brdf *brdf, int views, int azimuths,
         assert_int_equal(lmp_brdf_project(NULL, 10, 128, brdf, wo, sh), LMP_OK);
         for (int c = 0; c < 3; c++)
             lmp_sh_rotate(10, matrices, sh + 100 * c, rotated + 100 * c);
-        lmp_brdf_table_view(table, (float)cos(theta), (float)phi, rgb);
+        lmp_brdf_table_interpolate(table, (float)cos(theta), (float)phi, rgb);
         for (int i = 0; i < 300; i++) {
             worst = fmax(worst, fabs((double)rgb[i] - (double)rotated[i]));
             largest = fmax(largest, fabs((double)rotated[i]));
@@ -209,7 +211,7 @@ static void lobes_that_rotate_have_rotated_coefficients(void **state) {
                      LMP_OK);
     assert_int_equal(lmp_brdf_project(NULL, 10, 128, b, (lmp_vec3) { 0, 0.6f, 0.8f }, sh_b),
                      LMP_OK);
-    lmp_sh_rotation(10, (lmp_quat) { 0, 0, sqrtf(0.5f), sqrtf(0.5f) }, matrices);
+    lmp_sh_make_rotation(10, (lmp_quat) { 0, 0, sqrtf(0.5f), sqrtf(0.5f) }, matrices);
     lmp_sh_rotate(10, matrices, sh_a, rotated);
     for (int i = 0; i < 100; i++)
         CHECK_WITHIN(fabsf(rotated[i] - sh_b[i]), 2e-6);
@@ -217,8 +219,8 @@ static void lobes_that_rotate_have_rotated_coefficients(void **state) {
     lmp_brdf_destroy(b);
 }
 
-/* Measured noise: the table of m >= 0 averages f_r with its image, which is the cosine part of the
- * whole. */
+/* The measurement is noisy: its table of m >= 0 averages f_r with its mirror image, which is the
+ * cosine part of the whole. */
 static void mirrored_tables_of_measurements_are_their_even_part(void **state) {
     (void)state;
     enum { CELLS = 6 * 5 * 9, BANDS = 7, VIEWS = 5 };
@@ -255,8 +257,8 @@ static void mirrored_tables_of_measurements_are_their_even_part(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* Whether a table is mirrored and how finely it is integrated depend on the shape of a measurement,
- * not on how bright it is; one of nothing is even, and done at once. */
+/* Whether a table is mirrored, and how finely it is integrated, depends on the shape of a
+ * measurement and not on its brightness; a black one is even, and done at once. */
 static void a_dim_measurement_is_tabulated_like_a_bright_one(void **state) {
     (void)state;
     enum { CELLS = 4 * 4 * 8 };
@@ -266,7 +268,7 @@ static void a_dim_measurement_is_tabulated_like_a_bright_one(void **state) {
         cells[i] = check_random();
     for (int even = 0; even < 2; even++) {
         lmp_brdf_table_info first = { .bands = 0 };
-        for (size_t i = 0; i < 3 * CELLS && even; i++) /* light and view may change places */
+        for (size_t i = 0; i < 3 * CELLS && even; i++) /* light and view may be exchanged */
             cells[i] = cells[i / 8 * 8 + (i % 8 < 4 ? i % 8 : 7 - i % 8)];
         for (int k = 0; k < 5; k++) {
             const int32_t shape[3] = { 4, 4, 8 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* brdfs.h - the BRDFs that more than one test measures, and directions for them. */
+/* brdfs.h - the BRDFs that several tests measure, and directions for them. */
 #ifndef LAMPION_BRDFS_H
 #define LAMPION_BRDFS_H
 
@@ -32,7 +32,7 @@ static inline lmp_brdf *ggx(float alpha_x, float alpha_y) {
 static inline lmp_brdf *sgd_brdf(const char *name) {
     lmp_sgd parameters;
     lmp_brdf *brdf = NULL;
-    assert_int_equal(lmp_sgd_find(name, &parameters), LMP_OK);
+    assert_int_equal(lmp_brdf_find_sgd(name, &parameters), LMP_OK);
     assert_int_equal(lmp_brdf_create_sgd(NULL, &parameters, &brdf), LMP_OK);
     return brdf;
 }

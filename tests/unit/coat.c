@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Clear coats against KHR_materials_clearcoat: GGX of glTF 2.0's appendix B without Fresnel's term,
- * integrated over caps here, times w (0.04 + 0.96 (1 - |v·n|)^5); what is under them has the rest.
- */
+ * integrated over caps here, times w (0.04 + 0.96 (1 - |v·n|)^5); what is under them receives the
+ * rest. */
 #include "tests/oracle/check.h"
 #include "tests/oracle/crowd.h"
 #include "tests/oracle/gltf.h"
@@ -17,13 +17,13 @@ static double reflectance(double weight, lmp_vec3 n, lmp_vec3 v) {
     return weight * (0.04 + 0.96 * pow(1 - fabs(cosine), 5));
 }
 
-/* Caps of half angle 0.3 in the plane of incidence around the mirror direction. */
+/* The caps have half angle 0.3 and lie in the plane of incidence around the mirror direction. */
 static void a_coat_reflects_by_the_specification(void **state) {
     (void)state;
     const lmp_shade_settings settings = { .bands = 128 };
     for (int r = 0; r < 4; r++)
         for (int view = 0; view <= 80; view += 20) {
-            const double angle = view * ORACLE_PI / 180, rough = 0.4 + 0.2 * r, half = 0.3;
+            const double angle = view * ORACLE_PI / 180, rough = 0.4 + 0.2 * r, half_angle = 0.3;
             const oracle_gltf exact = { rough * rough, angle, 1, 1, 0 };
             const lmp_material coated = { .coat = { 0.75f, (float)rough } };
             const lmp_surface surface = { .normal = { 0, 0, 1 },
@@ -33,14 +33,14 @@ static void a_coat_reflects_by_the_specification(void **state) {
             double peak = 0;
             for (int i = -6; i <= 6; i++) {
                 const double to = angle + 0.1 * i;
-                if (fabs(to) > ORACLE_PI / 2 - half)
+                if (fabs(to) > ORACLE_PI / 2 - half_angle)
                     continue;
                 const double middle[3] = { sin(to), 0, cos(to) };
                 const lmp_light cap = { .kind = LMP_LIGHT_CAP,
                                         .direction = { (float)middle[0], 0, (float)middle[2] },
-                                        .angle = (float)half,
+                                        .angle = (float)half_angle,
                                         .radiance = { 1, 1, 1 } };
-                const double expected = part * oracle_gltf_cap(&exact, middle, half);
+                const double expected = part * oracle_gltf_cap(&exact, middle, half_angle);
                 const lmp_rgb color = lmp_shade(&settings, &coated, &surface, &cap, 1);
                 check_errors_add(&errors, fabs((double)color.r - expected));
                 peak = fmax(peak, expected);
@@ -52,7 +52,7 @@ static void a_coat_reflects_by_the_specification(void **state) {
 
 /* --- any material ----------------------------------------------------------------------------- */
 
-/* Every third has no coat. */
+/* Makes surfaces of which every third has no coat. */
 static void make_coated(crowd *c) {
     crowd_make(c);
     for (int i = 0; i < CROWD_COUNT; i++)
@@ -71,7 +71,7 @@ static void what_is_under_a_coat_has_the_rest(void **state) {
         coats.material[i] = (lmp_material) { .coat = *coat };
         const lmp_surface *at = &all.at[i];
         const double part = reflectance((double)coat->weight, at->coat_normal, at->view);
-        const float coated = lmp_material_coated(coat, at->coat_normal, at->view);
+        const float coated = lmp_material_coat_reflectance(coat, at->coat_normal, at->view);
         CHECK_WITHIN(fabs((double)coated - part), 1e-6);
         for (int environment = 0; environment < 2; environment++) {
             const lmp_rgb both = crowd_shade_one(&all, i, environment);
@@ -90,7 +90,7 @@ static void many_surfaces_are_coated_as_each_of_them(void **state) {
     crowd_check_many(&all);
 }
 
-/* Over a base that is no metallic-roughness. */
+/* The base is not metallic-roughness. */
 static void all_methods_coat_alike(void **state) {
     (void)state;
     crowd all;

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* damage.h - what becomes of a file of the library's when its bytes change. */
+/* damage.h - checks that the library's readers survive files whose bytes change. */
 #ifndef LAMPION_DAMAGE_H
 #define LAMPION_DAMAGE_H
 
 #include "src/base/bytes.h"
 #include "tests/oracle/check.h"
 
-/* Reads the bytes, checks that a failure leaves nothing, uses what was read, and frees it. */
+/* A reader that checks that a failure leaves nothing, uses what was read, and frees it. */
 typedef lmp_result (*damage_reader)(const unsigned char *bytes, size_t size);
 
-/* The checksum at the end becomes that of the bytes before it. */
+/* Replaces the checksum at the end by that of the bytes before it. */
 static inline void damage_sign(unsigned char *bytes, size_t size) {
-    lmp_bytes_store_u32(bytes + size - 4, lmp_bytes_checksum(bytes, size - 4));
+    lmpi_bytes_store_u32(bytes + size - 4, lmpi_bytes_checksum(bytes, size - 4));
 }
 
-/* Truncated, with a bit that is wrong, of another version: refused, each for its reason. */
+/* Checks that truncated bytes, a wrong bit and another version are refused, each for its own
+ * reason. */
 static inline void damage_is_refused(unsigned char *bytes, size_t size, damage_reader read) {
     for (size_t length = 0; length < size; length += 1 + length / 16)
         assert_int_not_equal(read(bytes, length), LMP_OK);
@@ -28,7 +29,8 @@ static inline void damage_is_refused(unsigned char *bytes, size_t size, damage_r
     assert_int_equal(read(bytes, size), LMP_OK);
 }
 
-/* Any byte from `first` to `end`, changed and signed, is refused or gives what stays in bounds. */
+/* Checks that each byte from `first` to `end`, changed and signed, is refused or gives what stays
+ * in bounds. */
 static inline void damage_stays_in_bounds(unsigned char *bytes, size_t size, size_t first,
                                           size_t end, int count, damage_reader read) {
     for (int i = 0; i < count; i++) {

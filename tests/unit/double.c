@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The functions in double, held to the vector files and to the oracle. */
+/* The functions in double, checked against the vector files and the oracle. */
 #include "tests/oracle/check.h"
 #include "tests/oracle/oracle.h"
 
@@ -74,7 +74,8 @@ static void agrees_with_the_oracle_at_any_number_of_bands(void **state) {
     }
 }
 
-/* Central differences of degree 4 in a polynomial of degree below 20: what is left is rounding. */
+/* Central differences of degree 4 apply to a polynomial of degree below 20, so only rounding
+ * remains. */
 static void gradients_are_those_of_differences(void **state) {
     (void)state;
     for (int trial = 0; trial < 20; trial++) {
@@ -116,7 +117,7 @@ static void second_derivatives_are_those_of_the_gradient(void **state) {
                 trace[i] = hessian[i] + hessian[3 * COUNT + i] + hessian[5 * COUNT + i];
             }
         CHECK_WITHIN(check_error_double(COUNT, sh, trace), 1e-12);
-        /* along the direction the function does not change, and its gradient falls as 1 / |v| */
+        /* Along the direction the function does not change, and its gradient falls as 1 / |v|. */
         for (int axis = 0; axis < 3; axis++) {
             double expected[3 * COUNT];
             for (int side = -1; side <= 1; side += 2) {
@@ -171,7 +172,7 @@ static void rotated_coefficients_are_those_of_the_rotated_direction(void **state
         random_direction(w);
         for (int i = 0; i < 3; i++)
             there[i] = r[3 * i] * w[0] + r[3 * i + 1] * w[1] + r[3 * i + 2] * w[2];
-        lmp_sh_rotation_double(BANDS, quat, matrices);
+        lmp_sh_make_rotation_double(BANDS, quat, matrices);
         lmp_sh_eval_double(BANDS, w, sh);
         lmp_sh_rotate_double(BANDS, matrices, sh, rotated);
         lmp_sh_eval_double(BANDS, there, expected);
@@ -179,7 +180,7 @@ static void rotated_coefficients_are_those_of_the_rotated_direction(void **state
     }
 }
 
-/* One buffer of all: apart, but not by a single byte. */
+/* One buffer holds all results, separate but adjacent. */
 static void results_may_lie_side_by_side(void **state) {
     (void)state;
     double w[3], sh[COUNT], gradient[3 * COUNT], both[4 * COUNT];

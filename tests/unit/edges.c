@@ -10,7 +10,7 @@
 
 enum { BANDS = 4, VALUES = BANDS * BANDS, COUNT = 21 };
 
-/* Numbers that no precondition allows together. */
+/* Numbers that violate some precondition. */
 static const float wild[] = { 0,      -0.f,  1,       -1,       1e-45f, 1e-30f,   0.5f,     2,
                               -1e10f, 1e30f, FLT_MAX, -FLT_MAX, NAN,    INFINITY, -INFINITY };
 enum { WILD = sizeof wild / sizeof *wild };
@@ -92,7 +92,7 @@ static void tables_read_what_has_no_place_as_nan(void **state) {
     float rgb[3 * 9];
     for (int i = 0; i < WILD * WILD; i++) {
         const float cosine = wild[i % WILD], phi = wild[i / WILD];
-        lmp_brdf_table_view(table, cosine, phi, rgb);
+        lmp_brdf_table_interpolate(table, cosine, phi, rgb);
         for (int k = 0; k < 27; k++)
             assert_int_equal(!isfinite(rgb[k]), isnan(cosine) || !isfinite(phi));
     }
@@ -132,7 +132,7 @@ static void the_horizon_is_finite(void **state) {
     const float heights[] = { 1e-45f, 1e-38f, 1e-30f, 1e-20f, 1e-10f };
     lmp_sgd sgd;
     lmp_brdf *brdfs[5];
-    assert_int_equal(lmp_sgd_find("nickel", &sgd), LMP_OK);
+    assert_int_equal(lmp_brdf_find_sgd("nickel", &sgd), LMP_OK);
     assert_int_equal(lmp_brdf_create_lambert(NULL, white, &brdfs[0]), LMP_OK);
     assert_int_equal(lmp_brdf_create_phong(NULL, white, 50, &brdfs[1]), LMP_OK);
     assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdfs[2]), LMP_OK);
@@ -164,22 +164,27 @@ static void a_count_of_0_needs_no_arrays(void **state) {
     const lmp_material material = { .exponent = 1 };
     const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = { 0, 0, 1 } };
     float unturned[LMP_SH_ROTATION_COUNT(BANDS)], factors[BANDS], sh[3 * VALUES];
-    lmp_sh_rotation(BANDS, (lmp_quat) { 0, 0, 0, 1 }, unturned);
-    lmp_lobe_phong(BANDS, 2, factors);
+    lmp_sh_make_rotation(BANDS, (lmp_quat) { 0, 0, 0, 1 }, unturned);
+    lmp_lobe_make_phong(BANDS, 2, factors);
     for (lmp_sh_layout layout = LMP_SH_INTERLEAVED; layout <= LMP_SH_PLANAR; layout++) {
-        lmp_sh_eval_n(BANDS, none, 0, layout, 0, NULL);
-        lmp_sh_dot_n(BANDS, NULL, NULL, 0, layout, 0, NULL);
-        lmp_sh_rotate_n(BANDS, unturned, NULL, 0, layout, 0, NULL);
-        lmp_sphere_zonal_n(BANDS, no_floats, no_floats, 0, layout, 0, NULL);
-        lmp_sphere_project_n(BANDS, &no_spheres, none, 0, layout, 0, NULL);
-        lmp_sphere_project_all(BANDS, &no_spheres, 0, none, 0, layout, 0, NULL);
-        lmp_sphere_accumulate_n(NULL, BANDS, &no_spheres, 0, none, 0, layout, 0, NULL);
-        lmp_sphere_accumulate_gradient_n(NULL, BANDS, &no_spheres, 0, none, 0, layout, 0, NULL, 0,
-                                         NULL);
-        lmp_lobe_response_n(BANDS, factors, none, &no_spheres, 0, none, 0, layout, 0, NULL);
+        lmp_sh_eval_n(BANDS, none, 0, (lmp_sh_array) { NULL, 0, layout });
+        lmp_sh_dot_n(BANDS, layout, 0, NULL, NULL, 0, NULL);
+        lmp_sh_rotate_n(BANDS, unturned, NULL, 0, (lmp_sh_array) { NULL, 0, layout });
+        lmp_sphere_project_zonal_n(BANDS, no_floats, no_floats, 0,
+                                   (lmp_sh_array) { NULL, 0, layout });
+        lmp_sphere_project_n(BANDS, &no_spheres, none, 0, (lmp_sh_array) { NULL, 0, layout });
+        lmp_sphere_project_all_n(BANDS, &no_spheres, 0, none, 0,
+                                 (lmp_sh_array) { NULL, 0, layout });
+        lmp_sphere_sum_n(NULL, BANDS, &no_spheres, 0, NULL, none, 0,
+                         (lmp_sh_array) { NULL, 0, layout });
+        lmp_sphere_sum_gradient_n(NULL, BANDS, &no_spheres, 0, none, 0,
+                                  (lmp_sh_array) { NULL, 0, layout },
+                                  (lmp_sh_array) { NULL, 0, layout });
+        lmp_lobe_response_n(BANDS, factors, none, &no_spheres, 0, none, 0,
+                            (lmp_rgb_array) { NULL, 0 });
     }
-    lmp_probe_irradiance_n(BANDS, sh, none, 0, NULL);
-    lmp_shade_n(NULL, &no_surfaces, 0, NULL, 0, 0, NULL);
+    lmp_probe_irradiance_n(BANDS, sh, none, 0, lmp_rgb_array_of(NULL));
+    lmp_shade_n(NULL, &no_surfaces, 0, NULL, 0, (lmp_rgb_array) { NULL, 0 });
     lmp_light_project(BANDS, NULL, 0, surface.position, sh);
     for (int i = 0; i < 3 * VALUES; i++)
         assert_true(sh[i] == 0);
@@ -195,48 +200,65 @@ static lmp_light lights[COUNT];
 static float lambda[BANDS], matrices[LMP_SH_ROTATION_COUNT(BANDS)];
 static float tight[9 * VALUES * COUNT], padded[9 * VALUES * 2 * COUNT], other[9 * VALUES * COUNT];
 
+static void place(void) {
+    for (int i = 0; i < COUNT; i++) {
+        points[i] = check_random_direction();
+        axes[i] = check_random_direction();
+        lights[i] = (lmp_light) { .position = { 3, 0, (float)i }, .radius = 0.2f };
+    }
+}
+
 static void eval(lmp_sh_layout layout, size_t stride, float *out) {
-    lmp_sh_eval_n(BANDS, lmp_vec3_array_of(axes), COUNT, layout, stride, out);
+    lmp_sh_eval_n(BANDS, lmp_vec3_array_of(axes), COUNT, (lmp_sh_array) { out, stride, layout });
 }
 
 static void rotate(lmp_sh_layout layout, size_t stride, float *out) {
     static float from[9 * VALUES * 2 * COUNT];
     eval(layout, stride, from);
-    lmp_sh_rotate_n(BANDS, matrices, from, COUNT, layout, stride, out);
+    lmp_sh_rotate_n(BANDS, matrices, from, COUNT, (lmp_sh_array) { out, stride, layout });
 }
 
 static void zonal(lmp_sh_layout layout, size_t stride, float *out) {
     const lmp_float_array radii = { &lights->radius, sizeof *lights };
-    lmp_sphere_zonal_n(BANDS, radii, radii, COUNT, layout, stride, out);
+    lmp_sphere_project_zonal_n(BANDS, radii, radii, COUNT, (lmp_sh_array) { out, stride, layout });
 }
 
 static void project(lmp_sh_layout layout, size_t stride, float *out) {
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, layout, stride, out);
+    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT,
+                         (lmp_sh_array) { out, stride, layout });
 }
 
 static void project_all(lmp_sh_layout layout, size_t stride, float *out) {
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_project_all(BANDS, &spheres, COUNT / 7, lmp_vec3_array_of(points), 7, layout, stride,
-                           out);
+    lmp_sphere_project_all_n(BANDS, &spheres, COUNT / 7, lmp_vec3_array_of(points), 7,
+                             (lmp_sh_array) { out, stride, layout });
 }
 
-static void accumulate(lmp_sh_layout layout, size_t stride, float *out) {
+static void sum(lmp_sh_layout layout, size_t stride, float *out) {
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_n(NULL, BANDS, &spheres, 3, lmp_vec3_array_of(points), COUNT, layout,
-                            stride, out);
+    lmp_sphere_sum_n(NULL, BANDS, &spheres, 3, NULL, lmp_vec3_array_of(points), COUNT,
+                     (lmp_sh_array) { out, stride, layout });
 }
 
 static void gradient(lmp_sh_layout layout, size_t stride, float *out) {
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_gradient_n(NULL, BANDS, &spheres, 3, lmp_vec3_array_of(points), COUNT,
-                                     layout, 0, other, stride, out);
+    lmp_sphere_sum_gradient_n(NULL, BANDS, &spheres, 3, lmp_vec3_array_of(points), COUNT,
+                              (lmp_sh_array) { other, 0, layout },
+                              (lmp_sh_array) { out, stride, layout });
+}
+
+static void irradiance(lmp_sh_layout layout, size_t stride, float *out) {
+    (void)layout;
+    lmp_probe_irradiance_n(BANDS, matrices, lmp_vec3_array_of(axes), COUNT,
+                           (lmp_rgb_array) { out, stride });
 }
 
 static void respond(lmp_sh_layout layout, size_t stride, float *out) {
+    (void)layout;
     const lmp_spheres spheres = lmp_spheres_of(lights);
     lmp_lobe_response_n(BANDS, lambda, lmp_vec3_array_of(axes), &spheres, 3,
-                        lmp_vec3_array_of(points), COUNT, layout, stride, out);
+                        lmp_vec3_array_of(points), COUNT, (lmp_rgb_array) { out, stride });
 }
 
 static void strides_are_in_bytes_everywhere(void **state) {
@@ -244,18 +266,18 @@ static void strides_are_in_bytes_everywhere(void **state) {
     static const struct {
         size_t values;
         void (*fill)(lmp_sh_layout layout, size_t stride, float *out);
-    } functions[] = { { VALUES, eval },         { VALUES, rotate },      { BANDS, zonal },
-                      { VALUES, project },      { VALUES, project_all }, { 3 * VALUES, accumulate },
-                      { 9 * VALUES, gradient }, { 3, respond } };
-    lmp_lobe_phong(BANDS, 2, lambda);
-    lmp_sh_rotation(BANDS, (lmp_quat) { 0.5f, 0.5f, 0.5f, 0.5f }, matrices);
-    for (int i = 0; i < COUNT; i++) {
-        points[i] = check_random_direction();
-        axes[i] = check_random_direction();
-        lights[i] = (lmp_light) { .position = { 3, 0, (float)i }, .radius = 0.2f };
-    }
+        bool colors; /* which are interleaved alone */
+    } functions[] = { { VALUES, eval, false },         { VALUES, rotate, false },
+                      { BANDS, zonal, false },         { VALUES, project, false },
+                      { VALUES, project_all, false },  { 3 * VALUES, sum, false },
+                      { 9 * VALUES, gradient, false }, { 3, respond, true },
+                      { 3, irradiance, true } };
+    lmp_lobe_make_phong(BANDS, 2, lambda);
+    lmp_sh_make_rotation(BANDS, (lmp_quat) { 0.5f, 0.5f, 0.5f, 0.5f }, matrices);
+    place();
     for (size_t f = 0; f < sizeof functions / sizeof *functions; f++)
-        for (lmp_sh_layout layout = LMP_SH_INTERLEAVED; layout <= LMP_SH_PLANAR; layout++) {
+        for (lmp_sh_layout layout = LMP_SH_INTERLEAVED;
+             layout <= (functions[f].colors ? LMP_SH_INTERLEAVED : LMP_SH_PLANAR); layout++) {
             const size_t values = functions[f].values;
             const size_t side = layout == LMP_SH_PLANAR ? COUNT : values, stride = side + 5;
             const size_t runs = layout == LMP_SH_PLANAR ? values : COUNT;
@@ -272,6 +294,33 @@ static void strides_are_in_bytes_everywhere(void **state) {
         }
 }
 
+/* A planar result holds the values of an interleaved one, whatever the other result's layout. */
+static void check_planes(const float *rows, const float *planes, size_t values) {
+    for (size_t i = 0; i < COUNT; i++)
+        for (size_t v = 0; v < values; v++)
+            assert_memory_equal(rows + i * values + v, planes + v * COUNT + i, sizeof *rows);
+}
+
+static void a_gradient_has_a_layout_of_its_own(void **state) {
+    (void)state;
+    static float sums[3 * VALUES * COUNT], slopes[9 * VALUES * COUNT];
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    const lmp_vec3_array at = lmp_vec3_array_of(points), around = lmp_vec3_array_of(axes);
+    place();
+    lmp_sphere_sum_gradient_n(NULL, BANDS, &spheres, 3, at, COUNT, lmp_sh_interleaved(sums, 0),
+                              lmp_sh_planar(tight, 0));
+    lmp_sphere_sum_gradient_n(NULL, BANDS, &spheres, 3, at, COUNT, lmp_sh_planar(other, 0),
+                              lmp_sh_interleaved(slopes, 0));
+    check_planes(sums, other, 3 * VALUES);
+    check_planes(slopes, tight, 9 * VALUES);
+    lmp_sh_eval_gradient_n(BANDS, around, COUNT, lmp_sh_interleaved(sums, 0),
+                           lmp_sh_planar(tight, 0));
+    lmp_sh_eval_gradient_n(BANDS, around, COUNT, lmp_sh_planar(other, 0),
+                           lmp_sh_interleaved(slopes, 0));
+    check_planes(sums, other, VALUES);
+    check_planes(slopes, tight, 3 * VALUES);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(preintegrated_lobes_read_nan_as_nan),
@@ -281,6 +330,7 @@ int main(void) {
         cmocka_unit_test(the_horizon_is_finite),
         cmocka_unit_test(a_count_of_0_needs_no_arrays),
         cmocka_unit_test(strides_are_in_bytes_everywhere),
+        cmocka_unit_test(a_gradient_has_a_layout_of_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,7 +33,7 @@ static void random_coefficients(int bands, float *sh) {
         sh[i] = (float)check_random_between(-1, 1);
 }
 
-/* Ambient radiance 1 is reflected by what a lobe integrates to, whatever the bands. */
+/* A lobe reflects its integral of ambient radiance 1, in any number of bands. */
 static void a_constant_environment_gives_the_albedo(void **state) {
     (void)state;
     static float sh[3 * 128 * 128];
@@ -56,7 +56,7 @@ static void a_constant_environment_gives_the_albedo(void **state) {
     }
 }
 
-/* L(w) = 2 + w·d: a cosine lobe keeps two thirds of the slope, Phong's (e+1)/(e+2). */
+/* L(w) = 2 + w·d: a cosine lobe keeps two thirds of the slope, a Phong lobe (e+1)/(e+2). */
 static void a_slope_is_reflected_as_the_lobes_keep_it(void **state) {
     (void)state;
     for (int i = 0; i < 100; i++) {
@@ -77,8 +77,8 @@ static void a_slope_is_reflected_as_the_lobes_keep_it(void **state) {
     }
 }
 
-/* Σ lambda_l window_l L_lm Y_lm of both lobes, by the oracle; the window is the specular one's, and
- * by coefficients the diffuse one's, too. */
+/* Compares with Σ lambda_l window_l L_lm Y_lm of both lobes, by the oracle; the window is that of
+ * the specular lobe and, with coefficients, also that of the diffuse one. */
 static void expect_sums(const lmp_shade_settings *settings, const lmp_surface *s,
                         const lmp_environment *e, double sums[3]) {
     const int bands = settings->bands;
@@ -132,7 +132,7 @@ static void any_environment_matches_the_definition(void **state) {
     CHECK_WITHIN(errors.largest, 2e-5);
 }
 
-/* Lights that are the same from every point, as lights and as coefficients. */
+/* Lights that are the same from every point shine alike as lights and as coefficients. */
 static void an_environment_of_lights_shines_as_they_do(void **state) {
     (void)state;
     lmp_brdf *brdf = NULL;
@@ -184,7 +184,7 @@ static void a_rotation_of_everything_changes_nothing(void **state) {
                                      r[3 * k + 2] * (double)s.view.z);
         }
         random_coefficients(10, sh);
-        lmp_sh_rotation(10, q, matrices);
+        lmp_sh_make_rotation(10, q, matrices);
         for (int c = 0; c < 3; c++)
             lmp_sh_rotate(10, matrices, sh + 100 * c, rotated + 100 * c);
         const lmp_rgb a = lmp_shade_environment(NULL, &painted, &s, &(lmp_environment) { sh, 10 });
@@ -195,7 +195,7 @@ static void a_rotation_of_everything_changes_nothing(void **state) {
     }
 }
 
-/* However many surfaces, of whatever materials, and wherever the colors go. */
+/* The colors are the same for any number of surfaces, any materials, and any stride. */
 static void many_surfaces_are_shaded_as_each_of_them(void **state) {
     (void)state;
     enum { COUNT = 37, BANDS = 12 };
@@ -220,7 +220,8 @@ static void many_surfaces_are_shaded_as_each_of_them(void **state) {
             .material = &materials[first],
             .material_stride = sizeof *materials,
         };
-        lmp_shade_environment_n(&settings, &many, COUNT - first, &e, 4 * sizeof *rgb, rgb);
+        lmp_shade_environment_n(&settings, &many, COUNT - first, &e,
+                                (lmp_rgb_array) { rgb, 4 * sizeof *rgb });
         for (size_t i = first; i < COUNT; i++) {
             const lmp_rgb one = lmp_shade_environment(&settings, &materials[i], &surfaces[i], &e);
             assert_memory_equal(&one, rgb + 4 * (i - first), sizeof one);

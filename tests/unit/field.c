@@ -9,7 +9,8 @@ enum { BANDS = 5, VALUES = 3 * BANDS * BANDS, LIGHTS = 60 };
 
 /* --- interpolation ---------------------------------------------------------------------------- */
 
-/* Every cubic of x, y, z, each with a factor; its derivatives in slopes. */
+/* Evaluates a cubic of x, y, z, with a factor for each monomial; slopes receives its derivatives.
+ */
 static double cubic(const double at[3], const double *factors, double slopes[3]) {
     double sum = 0;
     slopes[0] = slopes[1] = slopes[2] = 0;
@@ -29,14 +30,14 @@ static double cubic(const double at[3], const double *factors, double slopes[3])
     return sum;
 }
 
-/* A dark field's bytes end with its nodes, x first, and the checksum: the nodes become the cubic.
- */
+/* Makes a field of a cubic. The bytes of a dark field end with its nodes, x varying fastest, and
+ * the checksum: the nodes are replaced by the cubic. */
 static lmp_field *cubic_field(const lmp_field_desc *desc, const double *factors) {
     lmp_field *dark = field_of(desc, NULL, 0), *field;
     const size_t size = lmp_field_size(dark), values = 3 * LMP_SH_COUNT(desc->bands);
     unsigned char *bytes = malloc(size);
     assert_non_null(bytes);
-    lmp_field_write(dark, bytes);
+    lmp_field_write(dark, lmp_field_size(dark), bytes);
     lmp_field_destroy(dark);
     const int *n = desc->nodes;
     unsigned char *p = bytes + size - 4 - 16 * values * (size_t)(n[0] * n[1] * n[2]);
@@ -49,10 +50,10 @@ static lmp_field *cubic_field(const lmp_field_desc *desc, const double *factors)
         double of[4];
         of[0] = cubic(at, factors, of + 1);
         for (size_t v = 0; v < 4 * values; v++)
-            p = lmp_bytes_store_f32(p, (float)(of[v / values] * (double)(1 + v % values)));
+            p = lmpi_bytes_store_f32(p, (float)(of[v / values] * (double)(1 + v % values)));
     }
-    lmp_bytes_store_u32(bytes + size - 4, lmp_bytes_checksum(bytes, size - 4));
-    assert_int_equal(lmp_field_read(NULL, bytes, size, &field), LMP_OK);
+    lmpi_bytes_store_u32(bytes + size - 4, lmpi_bytes_checksum(bytes, size - 4));
+    assert_int_equal(lmp_field_read(NULL, bytes, size, NULL, &field), LMP_OK);
     free(bytes);
     return field;
 }
@@ -75,7 +76,7 @@ static void interpolation_reproduces_cubics(void **test) {
                                    -0.5 + 1.5 * check_random() };
             const lmp_vec3 point = { (float)at[0], (float)at[1], (float)at[2] };
             const double expected = cubic(at, factors, slopes);
-            lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, sh);
+            lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, lmp_sh_interleaved(sh, 0));
             for (size_t v = 0; v < values; v++)
                 CHECK_WITHIN(fabs((double)sh[v] / (double)(1 + v) - expected), 1e-5);
         }
@@ -83,7 +84,7 @@ static void interpolation_reproduces_cubics(void **test) {
     }
 }
 
-/* Of lights beyond their reach; a grid of more nodes has a coarser one, which errs more. */
+/* The lights lie beyond their reach; a grid of more nodes has a coarser one, which errs more. */
 static void the_error_falls_with_the_fourth_power_of_a_cell(void **test) {
     (void)test;
     lmp_light lights[LIGHTS];
@@ -149,8 +150,8 @@ static void the_reach_follows_from_the_error_asked_for(void **test) {
     }
 }
 
-/* A light goes through cells, past points, in steps that nothing could change by more than a few
- * times their size: what jumps would be seen. */
+/* Moves a light through cells, past points, in steps whose effect must stay within a few times
+ * their size: a jump would show. */
 static void check_no_jumps(int nodes) {
     enum { STEPS = 400, POINTS = 24 };
     const lmp_field_desc desc = { .nodes = { nodes, nodes, nodes }, .error = 0.3f };
@@ -167,11 +168,11 @@ static void check_no_jumps(int nodes) {
         for (int i = 0; i < POINTS; i++) {
             float exact[VALUES], sh[VALUES];
             lmp_light_project(BANDS, &light, 1, points[i], exact);
-            lmp_field_eval_n(field, lmp_vec3_array_same(&points[i]), 1, LMP_SH_INTERLEAVED, 0, sh);
+            lmp_field_eval_n(field, lmp_vec3_array_same(&points[i]), 1, lmp_sh_interleaved(sh, 0));
             for (int v = 0; v < VALUES; v++)
                 error[v] = sh[v] - exact[v];
-            /* The error itself is 0.3 of a light at most, and changes over a part of a cell; a step
-             * is a fortieth of one. */
+            /* The error is at most 0.3 of a light, and changes over a fraction of a cell; a step is
+             * a fortieth of a cell. */
             if (step > 0)
                 CHECK_WITHIN(field_distance(error, before[i], VALUES),
                              0.03 * field_size(exact, VALUES) + 1e-4);
@@ -186,13 +187,13 @@ static void nothing_jumps_where_a_light_crosses_a_cell(void **test) {
     check_no_jumps(12);
 }
 
-/* So many nodes have coarser ones, whose cells and reaches the light crosses, too. */
+/* These numbers of nodes have coarser fields, whose cells and reaches the light crosses, too. */
 static void nothing_jumps_where_a_light_crosses_a_coarser_cell(void **test) {
     (void)test;
     check_no_jumps(14);
 }
 
-static void near_lights_are_told_with_what_the_field_lacks(void **test) {
+static void near_lights_are_told_with_their_residuals(void **test) {
     (void)test;
     lmp_light lights[LIGHTS];
     const lmp_field_desc desc = { .nodes = { 9, 9, 9 }, .reach = 2 };
@@ -205,16 +206,16 @@ static void near_lights_are_told_with_what_the_field_lacks(void **test) {
         const bool inside = fmaxf(p.x, fmaxf(p.y, p.z)) <= 8 && fminf(p.x, fminf(p.y, p.z)) >= 0;
         uint32_t near[LIGHTS];
         float fractions[LIGHTS];
-        size_t count = lmp_field_near(field, p, LIGHTS, near, fractions), found = 0;
-        assert_int_equal(lmp_field_near(field, p, 0, NULL, NULL), count);
+        size_t count = lmp_field_find_near(field, p, LIGHTS, near, fractions), found = 0;
+        assert_int_equal(lmp_field_find_near(field, p, 0, NULL, NULL), count);
         for (uint32_t k = 0; k < LIGHTS; k++) {
             const lmp_vec3 c = lights[k].position;
             const double d = sqrt((double)((c.x - p.x) * (c.x - p.x) + (c.y - p.y) * (c.y - p.y) +
                                            (c.z - p.z) * (c.z - p.z)));
             const double t = fmin(fmax((d - (double)lights[k].radius) / 2, 0), 1), u = t * t;
-            const double lacks = inside && k != 7 ? 1 - u * u * (6 - 8 * u + 3 * u * u) : 1;
+            const double residual = inside && k != 7 ? 1 - u * u * (6 - 8 * u + 3 * u * u) : 1;
             const bool listed = found < count && near[found] == k;
-            CHECK_WITHIN(fabs((listed ? (double)fractions[found] : 0) - lacks), 1e-5);
+            CHECK_WITHIN(fabs((listed ? (double)fractions[found] : 0) - residual), 1e-5);
             found += listed;
         }
         assert_int_equal(found, count);
@@ -242,6 +243,7 @@ static void lobes_respond_as_to_the_coefficients(void **test) {
     lmp_light lights[LIGHTS];
     lmp_vec3 points[POINTS], axes[POINTS];
     lmp_rgb rgb[POINTS];
+    float padded[POINTS][5];
     float planes[VALUES][POINTS + 3], rows[POINTS][VALUES], lambda[BANDS], lobe[BANDS * BANDS];
     field_sphere_lights(0, 15, LIGHTS, lights);
     for (int i = 0; i < POINTS; i++) {
@@ -249,15 +251,20 @@ static void lobes_respond_as_to_the_coefficients(void **test) {
         axes[i] = check_random_direction();
     }
     lmp_field *field = field_of(NULL, lights, LIGHTS);
-    lmp_lobe_phong(BANDS, 7, lambda);
-    lmp_field_lobe_n(field, lambda, lmp_vec3_array_of(axes), lmp_vec3_array_of(points), POINTS,
-                     rgb);
-    lmp_field_eval_n(field, lmp_vec3_array_of(points), POINTS, LMP_SH_INTERLEAVED, 0, rows[0]);
-    lmp_field_eval_n(field, lmp_vec3_array_of(points), POINTS, LMP_SH_PLANAR, sizeof planes[0],
-                     planes[0]);
+    lmp_lobe_make_phong(BANDS, 7, lambda);
+    lmp_field_eval_lobe_n(field, lambda, lmp_vec3_array_of(axes), lmp_vec3_array_of(points), POINTS,
+                          lmp_rgb_array_of(rgb));
+    memset(padded, 0x7f, sizeof padded);
+    lmp_field_eval_lobe_n(field, lambda, lmp_vec3_array_of(axes), lmp_vec3_array_of(points), POINTS,
+                          (lmp_rgb_array) { padded[0], sizeof padded[0] });
+    lmp_field_eval_n(field, lmp_vec3_array_of(points), POINTS, lmp_sh_interleaved(rows[0], 0));
+    lmp_field_eval_n(field, lmp_vec3_array_of(points), POINTS,
+                     lmp_sh_planar(planes[0], sizeof planes[0]));
     for (int i = 0; i < POINTS; i++) {
         lmp_lobe_project(BANDS, lambda, axes[i], lobe);
         const double scale = field_size(rows[i], VALUES);
+        assert_memory_equal(padded[i], &rgb[i], sizeof rgb[i]);
+        assert_memory_equal(&padded[i][3], "\x7f\x7f\x7f\x7f\x7f\x7f\x7f\x7f", 2 * sizeof(float));
         for (int v = 0; v < VALUES; v++)
             assert_true(memcmp(&rows[i][v], &planes[v][i], sizeof(float)) == 0);
         CHECK_WITHIN(fabsf(rgb[i].r - lmp_sh_dot(BANDS, lobe, rows[i])), 1e-6 * scale);
@@ -281,15 +288,15 @@ static void texels_are_the_nodes_of_the_bytes(void **test) {
     const size_t size = lmp_field_size(field);
     unsigned char *bytes = malloc(size);
     assert_non_null(bytes);
-    lmp_field_write(field, bytes);
+    lmp_field_write(field, lmp_field_size(field), bytes);
     for (size_t first = 0; first < NODES; first += 20)
-        lmp_field_nodes(field, first, 20, texels + 4 * FEW * first);
-    lmp_field_nodes(field, NODES, 0, NULL);
+        lmp_field_copy_nodes(field, first, 20, texels + 4 * FEW * first);
+    lmp_field_copy_nodes(field, NODES, 0, NULL);
     const unsigned char *p = bytes + size - 4 - sizeof texels;
     for (size_t i = 0; i < NODES; i++)
         for (size_t row = 0; row < 4; row++)
             for (size_t v = 0; v < FEW; v++) {
-                const float stored = lmp_bytes_load_f32(&p);
+                const float stored = lmpi_bytes_load_f32(&p);
                 assert_true(stored == texels[4 * (FEW * i + v) + row]);
             }
     free(bytes);
@@ -313,8 +320,8 @@ static void lists_hold_all_that_is_near(void **test) {
     lights[7].kind = LMP_LIGHT_DIRECTIONAL;
     lights[7].direction = (lmp_vec3) { 0, 1, 0 };
     lmp_field *field = field_of(&desc, lights, LIGHTS);
-    const size_t count = lmp_field_lists(field, ROOM, begin, listed);
-    assert_int_equal(lmp_field_lists(field, 0, NULL, NULL), count);
+    const size_t count = lmp_field_copy_lists(field, ROOM, begin, listed);
+    assert_int_equal(lmp_field_copy_lists(field, 0, NULL, NULL), count);
     assert_true(count > LIGHTS && count < ROOM / 2);
     assert_int_equal(begin[BLOCKS + 1], count);
     assert_int_equal(count - begin[BLOCKS], 1);
@@ -324,24 +331,25 @@ static void lists_hold_all_that_is_near(void **test) {
         const uint32_t block = ((uint32_t)p.z / 2 * 4 + (uint32_t)p.y / 2) * 4 + (uint32_t)p.x / 2;
         uint32_t near[LIGHTS];
         float fractions[LIGHTS];
-        const size_t found = lmp_field_near(field, p, LIGHTS, near, fractions);
+        const size_t found = lmp_field_find_near(field, p, LIGHTS, near, fractions);
         for (size_t k = 0; k < found; k++)
             assert_true(near[k] == 7 || is_listed(listed, begin[block], begin[block + 1], near[k]));
     }
     lmp_field_destroy(field);
 }
 
-/* What a light's surface at a distance leaves of it in a field of that reach. */
+/* Returns the fraction of a light that remains outside a field of that reach, at a distance from
+ * its surface. */
 static double fade(double away, double reach) {
     const double t = fmin(fmax(away / reach, 0), 1), u = t * t;
     return u * u * (6 - 8 * u + 3 * u * u);
 }
 
-/* Coefficient 0 of what a list adds, red, at node i of each axis. */
+/* Returns coefficient 0 of what a list adds, in red, at node i of each axis. */
 static double listed_at(const lmp_field *field, const uint32_t *begin, const uint32_t *listed,
                         uint32_t list, int i) {
     const lmp_field_info fine = lmp_field_describe(field);
-    const double outer = (double)lmp_field_describe(lmp_field_coarser(field)).reach;
+    const double outer = (double)lmp_field_describe(lmp_field_coarser_level(field)).reach;
     const lmp_vec3 at = { (float)i, (float)i, (float)i };
     double sum = 0;
     for (uint32_t k = begin[list]; k < begin[list + 1]; k++) {
@@ -366,18 +374,19 @@ static void nodes_are_those_of_a_coarser_field_and_near_lights(void **test) {
     const lmp_field_desc desc = { .nodes = { SIDE, SIDE, SIDE }, .reach = 2 };
     field_sphere_lights(0, SIDE, LIGHTS, lights);
     lmp_field *field = field_of(&desc, lights, LIGHTS);
-    const lmp_field *coarse = lmp_field_coarser(field);
+    const lmp_field *coarse = lmp_field_coarser_level(field);
     const lmp_field_info info = lmp_field_describe(coarse);
-    assert_null(lmp_field_coarser(coarse));
+    assert_null(lmp_field_coarser_level(coarse));
     assert_true(info.desc.cell.x == 2 && info.desc.cell.y == 2 && info.desc.cell.z == 2);
     assert_true(info.light_count == LIGHTS && info.reach > 4);
     const int *n = info.desc.nodes;
     assert_true(n[0] / 2 == 4 && n[1] / 2 == 4 && n[2] / 2 == 4);
-    assert_true(lmp_field_lists(coarse, ROOM, begin, listed) < ROOM);
+    assert_true(lmp_field_copy_lists(coarse, ROOM, begin, listed) < ROOM);
     for (int i = 0; i < SIDE; i += 2) {
         const uint32_t b = (uint32_t)i / 4;
-        lmp_field_nodes(field, (size_t)((i * SIDE + i) * SIDE + i), 1, texel);
-        lmp_field_nodes(coarse, (size_t)((i / 2 * n[1] + i / 2) * n[0] + i / 2), 1, coarse_texel);
+        lmp_field_copy_nodes(field, (size_t)((i * SIDE + i) * SIDE + i), 1, texel);
+        lmp_field_copy_nodes(coarse, (size_t)((i / 2 * n[1] + i / 2) * n[0] + i / 2), 1,
+                             coarse_texel);
         const double added = listed_at(field, begin, listed, (b * 4 + b) * 4 + b, i) +
                              listed_at(field, begin, listed, BLOCKS, i);
         CHECK_WITHIN(fabs((double)texel[0] - (double)coarse_texel[0] - added),
@@ -394,7 +403,7 @@ int main(void) {
         cmocka_unit_test(the_reach_follows_from_the_error_asked_for),
         cmocka_unit_test(nothing_jumps_where_a_light_crosses_a_cell),
         cmocka_unit_test(nothing_jumps_where_a_light_crosses_a_coarser_cell),
-        cmocka_unit_test(near_lights_are_told_with_what_the_field_lacks),
+        cmocka_unit_test(near_lights_are_told_with_their_residuals),
         cmocka_unit_test(outside_the_grid_every_light_is_summed),
         cmocka_unit_test(lobes_respond_as_to_the_coefficients),
         cmocka_unit_test(texels_are_the_nodes_of_the_bytes),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Lights of a field that move, come and go, against the same lights given at once; and what does
- * not change the bits. */
+/* Lights of a field that move, appear and disappear, against the same lights given at once; and
+ * changes that must not change the bits. */
 #include "tests/unit/fields.h"
 
 #include <lampion/cpu.h>
@@ -12,7 +12,7 @@ enum { LIGHTS = 40, POINTS = 60 };
 static const lmp_field_desc grid = {
     .bands = 4, .nodes = { 9, 7, 10 }, .light_max = LIGHTS, .reach = 2
 };
-/* Of so many nodes that it has a coarser one, which has one of its own. */
+/* A field with so many nodes that it has a coarser one, which has a coarser one, too. */
 static const lmp_field_desc deep = { .bands = 4,
                                      .nodes = { 30, 16, 30 },
                                      .cell = { 0.3f, 0.4f, 0.3f },
@@ -20,14 +20,14 @@ static const lmp_field_desc deep = { .bands = 4,
                                      .reach = 2 };
 enum { VALUES = 3 * 4 * 4 };
 
-/* The most that one's coefficients differ from the other's, in parts of the largest. */
+/* Returns the largest difference of coefficients, relative to the largest. */
 static double difference(const lmp_field *a, const lmp_field *b) {
     double worst = 0;
     for (int i = 0; i < POINTS; i++) {
         const lmp_vec3 point = field_point(0, 6);
         float of_a[VALUES], of_b[VALUES];
-        lmp_field_eval_n(a, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, of_a);
-        lmp_field_eval_n(b, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, of_b);
+        lmp_field_eval_n(a, lmp_vec3_array_same(&point), 1, lmp_sh_interleaved(of_a, 0));
+        lmp_field_eval_n(b, lmp_vec3_array_same(&point), 1, lmp_sh_interleaved(of_b, 0));
         worst = fmax(worst, field_distance(of_a, of_b, VALUES) / (field_size(of_b, VALUES) + 1e-9));
     }
     return worst;
@@ -51,14 +51,14 @@ static void change_lights(const lmp_field_desc *desc) {
         field_sphere_lights(-2, 9, 3, moved);
         moved[2].kind = step % 2 ? LMP_LIGHT_POINT : LMP_LIGHT_SPHERE;
         moved[1].radius = step % 3 ? 0.1f : 20; /* too large for a list */
-        lmp_field_move(NULL, field, at, moved, 3);
+        lmp_field_move_n(NULL, field, at, moved, 3);
         for (int k = 0; k < 3; k++)
             lights[at[k]] = moved[k];
     }
     assert_memory_equal(lights, lmp_field_lights(field), sizeof lights);
-    lmp_field *anew = same_lights(field);
-    CHECK_WITHIN(difference(field, anew), 2e-5);
-    lmp_field_destroy(anew);
+    lmp_field *recomputed = same_lights(field);
+    CHECK_WITHIN(difference(field, recomputed), 2e-5);
+    lmp_field_destroy(recomputed);
     for (size_t left = LIGHTS; left > 0; left--) {
         const size_t gone = left * 7 % left;
         lights[gone] = lights[left - 1];
@@ -68,7 +68,7 @@ static void change_lights(const lmp_field_desc *desc) {
     }
     const lmp_vec3 point = { 3, 3, 3 };
     float dark[VALUES];
-    lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, dark);
+    lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, lmp_sh_interleaved(dark, 0));
     CHECK_WITHIN(field_size(dark, VALUES), 1e-4);
     lmp_field_destroy(field);
 }
@@ -79,27 +79,27 @@ static void lights_that_move_come_and_go_leave_what_is_left(void **test) {
     change_lights(&deep);
 }
 
-/* Of 10^6 changes in the long form. The bound is that of field.h, for as many changes as pass
- * until a node is computed anew; sums wander by far less. */
+/* The long form makes 10^6 changes. The bound is that of field.h, for as many changes as pass until
+ * a node is recomputed; sums drift by far less. */
 static void rounding_does_not_add_up(void **test) {
     (void)test;
     const int changes = check_count(20000, 1000000);
     const lmp_field_desc desc = { .bands = 4, .nodes = { 5, 5, 5 }, .reach = 1 };
-    const size_t passed = 2 * 3 * 3 * LMP_FIELD_REFRESH; /* bricks */
+    const size_t passed = 2 * 3 * 3 * LMP_FIELD_REFRESH; /* bricks times the refresh interval */
     lmp_light lights[LIGHTS];
     field_sphere_lights(-1, 5, LIGHTS, lights);
     lmp_field *field = field_of(&desc, lights, LIGHTS);
     for (int i = 0; i < changes; i++) {
         const size_t at = (size_t)i % LIGHTS;
         lights[at] = field_sphere_light(-1, 5);
-        lmp_field_move(NULL, field, &at, &lights[at], 1);
+        lmp_field_move_n(NULL, field, &at, &lights[at], 1);
     }
-    lmp_field *anew = same_lights(field);
-    const double drift = difference(field, anew);
+    lmp_field *recomputed = same_lights(field);
+    const double drift = difference(field, recomputed);
     printf("%d changes: %.1e\n", changes, drift);
     CHECK_WITHIN(drift, 2 * (double)passed / (1 << 24) * 4);
     CHECK_WITHIN(drift, 3e-6);
-    lmp_field_destroy(anew);
+    lmp_field_destroy(recomputed);
     lmp_field_destroy(field);
 }
 
@@ -107,10 +107,10 @@ static void fill_bytes(const lmp_field *field, unsigned char **bytes, size_t *si
     *size = lmp_field_size(field);
     *bytes = malloc(*size);
     assert_non_null(*bytes);
-    lmp_field_write(field, *bytes);
+    lmp_field_write(field, lmp_field_size(field), *bytes);
 }
 
-/* A field after an update and moves: its bytes, and responses of lobes. */
+/* Computes a field after an update and moves: its bytes, and responses of lobes. */
 static void field_after_changes(const lmp_host *host, const lmp_field_desc *desc,
                                 unsigned char **bytes, size_t *size, lmp_rgb *rgb) {
     lmp_light lights[LIGHTS];
@@ -131,11 +131,11 @@ static void field_after_changes(const lmp_host *host, const lmp_field_desc *desc
     assert_int_equal(lmp_field_create(NULL, desc, &field), LMP_OK);
     assert_int_equal(lmp_field_update(host, field, lights, LIGHTS), LMP_OK);
     const size_t at[2] = { 3, 17 };
-    lmp_field_move(host, field, at, lights, 2);
+    lmp_field_move_n(host, field, at, lights, 2);
     lmp_field_remove(host, field, 5);
-    lmp_lobe_diffuse(4, lambda);
-    lmp_field_lobe_n(field, lambda, lmp_vec3_array_of(axes), lmp_vec3_array_of(points), POINTS,
-                     rgb);
+    lmp_lobe_make_diffuse(4, lambda);
+    lmp_field_eval_lobe_n(field, lambda, lmp_vec3_array_of(axes), lmp_vec3_array_of(points), POINTS,
+                          lmp_rgb_array_of(rgb));
     fill_bytes(field, bytes, size);
     lmp_field_destroy(field);
 }
@@ -144,13 +144,13 @@ static void check_same_bits(const lmp_field_desc *desc) {
     unsigned char *plain, *other;
     size_t size, other_size;
     lmp_rgb rgb[POINTS], other_rgb[POINTS];
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
     field_after_changes(NULL, desc, &plain, &size, rgb);
     for (unsigned flag = 0; flag <= LMP_CPU_AVX512; flag = flag ? 2 * flag : LMP_CPU_SCALAR) {
         check_hooks hooks = { .refuse = -1 };
         const lmp_host host = check_host(&hooks);
         if (flag)
-            lmp_cpu_mask(flag);
+            lmp_cpu_limit(flag);
         field_after_changes(&host, desc, &other, &other_size, other_rgb);
         assert_int_equal(size, other_size);
         assert_memory_equal(plain, other, size);
@@ -158,7 +158,7 @@ static void check_same_bits(const lmp_field_desc *desc) {
         assert_true(hooks.tasks > 0);
         free(other);
     }
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
     free(plain);
 }
 
@@ -180,7 +180,7 @@ static void nothing_is_allocated_once_it_is_made(void **test) {
     assert_int_equal(lmp_field_update(&host, field, lights, LIGHTS), LMP_OK);
     assert_int_equal(lmp_field_update(&host, field, lights, LIGHTS + 1), LMP_ERROR_ARGUMENT);
     const size_t at = 1;
-    lmp_field_move(&host, field, &at, lights, 1);
+    lmp_field_move_n(&host, field, &at, lights, 1);
     lmp_field_remove(&host, field, 0);
     assert_int_equal(hooks.requests, 1);
     lmp_field_destroy(field);
@@ -214,7 +214,7 @@ static void what_cannot_be_made_is_refused(void **test) {
         { .origin = { 1.01e15f, 0, 0 } },
         { .origin = { 0, -1.01e15f, 0 } },
         { .origin = { 0, 0, 1.01e15f } },
-        { .light_max = -1 },
+        { .light_max = SIZE_MAX },
         { .light_max = LMP_FIELD_LIGHTS_MAX + 1 },
         { .error = -1 },
         { .error = 2 },
@@ -257,27 +257,27 @@ static void nodes_are_computed_where_they_are_wanted(void **test) {
     field_sphere_lights(0, 8, LIGHTS, lights);
     lmp_field *field = field_of(&grid, NULL, 0);
     assert_int_equal(lmp_field_reset(field, lights, LIGHTS), LMP_OK);
-    lmp_field_want(field, at_here, 1);
+    lmp_field_want_n(field, at_here, 1);
     assert_int_equal(lmp_field_compute(NULL, field), LMP_OK);
     lmp_field *whole = same_lights(field);
-    lmp_field_eval_n(field, at_here, 1, LMP_SH_INTERLEAVED, 0, a);
-    lmp_field_eval_n(whole, at_here, 1, LMP_SH_INTERLEAVED, 0, b);
+    lmp_field_eval_n(field, at_here, 1, lmp_sh_interleaved(a, 0));
+    lmp_field_eval_n(whole, at_here, 1, lmp_sh_interleaved(b, 0));
     assert_memory_equal(a, b, sizeof a);
-    /* what is far from all that was wanted has not been computed */
-    lmp_field_eval_n(field, at_there, 1, LMP_SH_INTERLEAVED, 0, a);
-    lmp_field_eval_n(whole, at_there, 1, LMP_SH_INTERLEAVED, 0, b);
+    /* what is far from all wanted points has not been computed */
+    lmp_field_eval_n(field, at_there, 1, lmp_sh_interleaved(a, 0));
+    lmp_field_eval_n(whole, at_there, 1, lmp_sh_interleaved(b, 0));
     assert_true(field_distance(a, b, VALUES) > 0.1 * field_size(b, VALUES));
-    /* a moved light counts at nodes from before and at those that come */
-    lmp_field_move(NULL, field, &first, &lights[5], 1);
-    lmp_field_move(NULL, whole, &first, &lights[5], 1);
-    lmp_field_want(field, at_there, 1);
+    /* a moved light counts at nodes computed before and at those computed later */
+    lmp_field_move_n(NULL, field, &first, &lights[5], 1);
+    lmp_field_move_n(NULL, whole, &first, &lights[5], 1);
+    lmp_field_want_n(field, at_there, 1);
     assert_int_equal(lmp_field_compute(NULL, field), LMP_OK);
     lmp_field *moved = same_lights(field);
-    lmp_field_eval_n(field, at_there, 1, LMP_SH_INTERLEAVED, 0, a);
-    lmp_field_eval_n(moved, at_there, 1, LMP_SH_INTERLEAVED, 0, b);
+    lmp_field_eval_n(field, at_there, 1, lmp_sh_interleaved(a, 0));
+    lmp_field_eval_n(moved, at_there, 1, lmp_sh_interleaved(b, 0));
     assert_memory_equal(a, b, sizeof a);
-    lmp_field_eval_n(field, at_here, 1, LMP_SH_INTERLEAVED, 0, a);
-    lmp_field_eval_n(whole, at_here, 1, LMP_SH_INTERLEAVED, 0, b);
+    lmp_field_eval_n(field, at_here, 1, lmp_sh_interleaved(a, 0));
+    lmp_field_eval_n(whole, at_here, 1, lmp_sh_interleaved(b, 0));
     assert_memory_equal(a, b, sizeof a);
     assert_int_equal(lmp_field_reset(field, lights, LIGHTS + 1), LMP_ERROR_ARGUMENT);
     lmp_field_destroy(moved);
@@ -294,9 +294,9 @@ static void an_update_can_be_cancelled(void **test) {
     const lmp_host host = check_host(&hooks);
     assert_int_equal(lmp_field_update(&host, field, lights, LIGHTS), LMP_ERROR_CANCELLED);
     assert_int_equal(lmp_field_update(NULL, field, lights, LIGHTS), LMP_OK);
-    lmp_field *anew = same_lights(field);
-    CHECK_WITHIN(difference(field, anew), 0);
-    lmp_field_destroy(anew);
+    lmp_field *recomputed = same_lights(field);
+    CHECK_WITHIN(difference(field, recomputed), 0);
+    lmp_field_destroy(recomputed);
     lmp_field_destroy(field);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A field's promise: no light, wherever it and the point lie, errs by more than was asked for. The
- * worst are searched for, uphill from the worst of many random ones, on grids with and without
+ * worst pairs are searched uphill from the worst of many random ones, on grids with and without
  * coarser ones. Prints the table of docs/fields.md. */
 #include "tests/unit/fields.h"
 
@@ -8,7 +8,7 @@
 
 enum { VALUES_MAX = LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX };
 
-/* In cells. */
+/* A point and a light, in cells. */
 typedef struct field_pair {
     double point[3], light[3], radius;
 } field_pair;
@@ -24,7 +24,7 @@ static void open_search(lmp_field_desc desc, field_search *search) {
     search->field = field_of(&desc, NULL, 0);
     search->info = lmp_field_describe(search->field);
     search->levels = 0;
-    for (const lmp_field *level = search->field; level; level = lmp_field_coarser(level))
+    for (const lmp_field *level = search->field; level; level = lmp_field_coarser_level(level))
         search->levels++;
 }
 
@@ -35,8 +35,8 @@ static double distance(const field_pair *pair) {
     return sqrt(sum);
 }
 
-/* Of the light's red coefficients, in parts of themselves; 0 outside the grid and within the light.
- */
+/* Returns the error of the light's red coefficients, relative to them; 0 outside the grid and
+ * within the light. */
 static double error_of(const field_search *search, const field_pair *pair) {
     const int bands = search->info.desc.bands, *nodes = search->info.desc.nodes;
     const size_t count = LMP_SH_COUNT(bands);
@@ -52,9 +52,9 @@ static double error_of(const field_search *search, const field_pair *pair) {
     if (!(pair->radius >= 1e-3) || distance(pair) < 1.001 * pair->radius)
         return 0;
     assert_int_equal(lmp_field_reset(search->field, &light, 1), LMP_OK);
-    lmp_field_want(search->field, lmp_vec3_array_same(&point), 1);
+    lmp_field_want_n(search->field, lmp_vec3_array_same(&point), 1);
     assert_int_equal(lmp_field_compute(NULL, search->field), LMP_OK);
-    lmp_field_eval_n(search->field, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, actual);
+    lmp_field_eval_n(search->field, lmp_vec3_array_same(&point), 1, lmp_sh_interleaved(actual, 0));
     lmp_light_project(bands, &light, 1, point, expected);
     return field_distance(actual, expected, count) / field_size(expected, count);
 }
@@ -63,7 +63,8 @@ static double normal(void) {
     return sqrt(-2 * log(1 - check_random())) * cos(6.2831853 * check_random());
 }
 
-/* A point around the middle of the grid, a light within the reach of the coarsest field. */
+/* Returns a point around the middle of the grid and a light within the reach of the coarsest field.
+ */
 static field_pair random_pair(const field_search *search) {
     const double reach = (double)search->info.desc.reach;
     const double farthest = 2.6 * (1 << (search->levels - 1));
@@ -79,7 +80,7 @@ static field_pair random_pair(const field_search *search) {
     return pair;
 }
 
-/* Steps that lead uphill grow, others shrink. */
+/* Climbs by steps that grow when they lead uphill and shrink otherwise. */
 static double climb(const field_search *search, int steps, field_pair *best, double error) {
     const double reach = (double)search->info.desc.reach;
     double size = 0.3;
@@ -101,7 +102,7 @@ static double climb(const field_search *search, int steps, field_pair *best, dou
     return error;
 }
 
-/* The largest that is found. */
+/* Returns the largest error found. */
 static double search_errors(const field_search *search) {
     enum { CLIMBERS = 12 };
     const int climbers = check_count(5, CLIMBERS), steps = check_count(100, 400);
@@ -125,7 +126,8 @@ static double search_errors(const field_search *search) {
     return worst;
 }
 
-/* Of one level, and of four; the light may lie outside the grid, so that thin ones do. */
+/* Grids of one level, and of four; the light may lie outside the grid, as it does for thin grids.
+ */
 static const int grids[][3] = { { 10, 10, 10 }, { 1024, 4, 4 } };
 enum { GRIDS = sizeof grids / sizeof *grids };
 

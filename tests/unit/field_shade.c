@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Surfaces under a field reflect what lmp_shade says of all its lights. */
+/* Surfaces under a field reflect what lmp_shade returns for all its lights. */
 #include "tests/unit/fields.h"
 
 #include <string.h>
@@ -18,7 +18,8 @@ static const lmp_surfaces surfaces = {
     .material_stride = sizeof *materials
 };
 
-/* Neighbors lie side by side now and then, as those of an image do; some outside the grid. */
+/* Scatters surfaces; some neighbors lie side by side, as those of an image do, and some lie outside
+ * the grid. */
 static void scatter(void) {
     for (int i = 0; i < COUNT; i++) {
         const lmp_vec3 before = position[i ? i - 1 : 0];
@@ -38,7 +39,8 @@ static void scatter(void) {
     field_sphere_lights(0, 15, LIGHTS, lights);
 }
 
-/* The largest difference to `exact` in parts of the largest radiance, and its root mean square. */
+/* Finds the largest difference to `exact` relative to the largest radiance, and its root mean
+ * square. */
 static void compare(const lmp_rgb *rgb, const lmp_rgb *exact, double *worst, double *rms) {
     double peak = 0, sum = 0;
     *worst = 0;
@@ -54,8 +56,8 @@ static void compare(const lmp_rgb *rgb, const lmp_rgb *exact, double *worst, dou
     *rms = sqrt(sum / COUNT) / peak;
 }
 
-/* How much of a light the field has, which gives it to the diffuse lobe truncated to its bands; the
- * rest is exact (docs/fields.md). */
+/* Returns the fraction of a light that the field holds, which reaches the diffuse lobe truncated to
+ * its bands; the rest is exact (docs/fields.md). */
 static double held(const lmp_field_info *info, const lmp_light *light, lmp_vec3 at) {
     const lmp_vec3 p = light->position, o = info->desc.origin;
     const double d = sqrt(pow((double)(p.x - at.x), 2) + pow((double)(p.y - at.y), 2) +
@@ -72,16 +74,16 @@ static double held(const lmp_field_info *info, const lmp_light *light, lmp_vec3 
     return u * u * (6 - 8 * u + 3 * u * u);
 }
 
-/* From the radiance under all lights to that under the field: what its bands lack of the diffuse
- * lobe. */
+/* Converts the radiance under all lights to that under the field, by what its bands lack of the
+ * diffuse lobe. */
 static void truncate_diffuse(const lmp_field *field, const lmp_light *of, size_t count,
                              lmp_rgb *exact) {
     const lmp_field_info info = lmp_field_describe(field);
     float lambda[LMP_FIELD_BANDS_MAX];
-    lmp_lobe_diffuse(info.desc.bands, lambda);
+    lmp_lobe_make_diffuse(info.desc.bands, lambda);
     for (int i = 0; i < COUNT; i++) {
         const lmp_material *material = &materials[i];
-        double lacks[3] = { 0, 0, 0 };
+        double residual[3] = { 0, 0, 0 };
         if (material->kind != LMP_MATERIAL_LOBES)
             continue; /* metals */
         for (size_t k = 0; k < count; k++) {
@@ -91,26 +93,27 @@ static void truncate_diffuse(const lmp_field *field, const lmp_light *of, size_t
             const lmp_rgb bands =
                 lmp_lobe_response(info.desc.bands, lambda, normal[i], &of[k], 1, position[i]);
             const lmp_rgb all = lmp_light_irradiance(&of[k], 1, position[i], normal[i]);
-            lacks[0] += f * (double)(all.r - bands.r);
-            lacks[1] += f * (double)(all.g - bands.g);
-            lacks[2] += f * (double)(all.b - bands.b);
+            residual[0] += f * (double)(all.r - bands.r);
+            residual[1] += f * (double)(all.g - bands.g);
+            residual[2] += f * (double)(all.b - bands.b);
         }
         const double part =
-            (1 - (double)lmp_material_coated(&material->coat, normal[i], view[i])) / 3.14159265;
-        exact[i].r -= (float)(part * (double)material->diffuse.r * lacks[0]);
-        exact[i].g -= (float)(part * (double)material->diffuse.g * lacks[1]);
-        exact[i].b -= (float)(part * (double)material->diffuse.b * lacks[2]);
+            (1 - (double)lmp_material_coat_reflectance(&material->coat, normal[i], view[i])) /
+            3.14159265;
+        exact[i].r -= (float)(part * (double)material->diffuse.r * residual[0]);
+        exact[i].g -= (float)(part * (double)material->diffuse.g * residual[1]);
+        exact[i].b -= (float)(part * (double)material->diffuse.b * residual[2]);
     }
 }
 
-/* Errors of a field's surfaces against those under all its lights. */
+/* Compares a field's surfaces with those under all its lights. */
 static void shade_both(const lmp_shade_settings *settings, const lmp_field_desc *desc,
                        const lmp_light *of, size_t count, double *worst, double *rms) {
     lmp_field *field = field_of(desc, of, count);
     lmp_rgb rgb[COUNT], exact[COUNT];
-    lmp_shade_n(settings, &surfaces, COUNT, of, count, 0, &exact->r);
+    lmp_shade_n(settings, &surfaces, COUNT, of, count, lmp_rgb_array_of(exact));
     truncate_diffuse(field, of, count, exact);
-    lmp_field_shade_n(settings, field, &surfaces, COUNT, 0, &rgb->r);
+    lmp_field_shade_n(settings, field, &surfaces, COUNT, lmp_rgb_array_of(rgb));
     compare(rgb, exact, worst, rms);
     lmp_field_destroy(field);
 }
@@ -119,7 +122,7 @@ static void surfaces_reflect_as_under_all_lights(void **test) {
     (void)test;
     scatter();
     for (int bands = 3; bands <= 10; bands += bands == 3 ? 2 : 5)
-        for (int window = 0; window < LMP_WINDOWS; window++) {
+        for (int window = 0; window < LMP_WINDOW_COUNT; window++) {
             const lmp_field_desc desc = { .bands = bands };
             const lmp_shade_settings settings = { .bands = bands, .window = (lmp_window)window };
             double worst, rms;
@@ -129,7 +132,7 @@ static void surfaces_reflect_as_under_all_lights(void **test) {
         }
 }
 
-/* They are near everywhere, so that nothing is interpolated. */
+/* Such lights are near everywhere, so that nothing is interpolated. */
 static void lights_that_are_no_spheres_are_summed_exactly(void **test) {
     (void)test;
     lmp_light others[10];
@@ -147,7 +150,7 @@ static void lights_that_are_no_spheres_are_summed_exactly(void **test) {
     CHECK_WITHIN(worst, 1e-5);
 }
 
-/* So near that a sphere in a point's place would be seen as one, however small. */
+/* Points are so near that a sphere in their place would be seen as one, however small. */
 static void points_are_points_close_by(void **test) {
     (void)test;
     enum { FEW = 10 };
@@ -176,7 +179,7 @@ static void points_are_points_close_by(void **test) {
         exact[i] = lmp_shade(&settings, &materials[i], &surface, lights, FEW);
     }
     truncate_diffuse(field, lights, FEW, exact);
-    lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
+    lmp_field_shade_n(&settings, field, &surfaces, COUNT, lmp_rgb_array_of(rgb));
     compare(rgb, exact, &worst, &rms);
     CHECK_WITHIN(worst, 1e-4);
     lmp_field_destroy(field);
@@ -223,7 +226,7 @@ static void tables_reflect_as_under_all_lights(void **test) {
             &settings, &materials[i],
             &(lmp_surface) { .position = position[i], .normal = normal[i], .view = view[i] },
             lights, LIGHTS);
-    lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
+    lmp_field_shade_n(&settings, field, &surfaces, COUNT, lmp_rgb_array_of(rgb));
     compare(rgb, exact, &worst, &rms);
     CHECK_WITHIN(worst, 0.01);
     lmp_field_destroy(field);

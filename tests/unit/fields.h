@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A point of the box from `low` to `high` in every axis. */
+/* Returns a random point of the box from `low` to `high` in every axis. */
 static inline lmp_vec3 field_point(double low, double high) {
     const float x = (float)check_random_between(low, high),
                 y = (float)check_random_between(low, high);
@@ -38,7 +38,7 @@ static inline lmp_field *field_of(const lmp_field_desc *desc, const lmp_light *l
     return field;
 }
 
-/* Root of the sum of squares of a - b, and of a. */
+/* Returns the root of the sum of squares of a - b, and of a. */
 static inline double field_distance(const float *a, const float *b, size_t count) {
     double sum = 0;
     for (size_t i = 0; i < count; i++)
@@ -52,7 +52,8 @@ static inline double field_size(const float *a, size_t count) {
     return sqrt(sum);
 }
 
-/* The error of a field's coefficients at a point, in parts of the sum of its lights' sizes. */
+/* Returns the error of a field's coefficients at a point, relative to the sum of its lights' sizes.
+ */
 static inline double field_error(const lmp_field *field, lmp_vec3 point) {
     const lmp_field_info info = lmp_field_describe(field);
     const size_t n = 3 * LMP_SH_COUNT(info.desc.bands);
@@ -64,7 +65,7 @@ static inline double field_error(const lmp_field *field, lmp_vec3 point) {
         sizes += field_size(one, n);
     }
     lmp_light_project(info.desc.bands, lmp_field_lights(field), info.light_count, point, exact);
-    lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, one);
+    lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, lmp_sh_interleaved(one, 0));
     return field_distance(one, exact, n) / sizes;
 }
 

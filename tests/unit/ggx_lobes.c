@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The lobes of lmp_lobe_ggx against glTF 2.0's appendix B, both integrated over caps in double
- * precision here: nothing of the library but the lobes themselves. LAMPION_LONG=1 sweeps all
- * plates and prints the tables of docs/ggx.md. */
+/* The lobes of lmp_lobe_find_ggx against glTF 2.0's appendix B, both integrated over caps in double
+ * precision here, with only the lobes taken from the library. LAMPION_LONG=1 sweeps all plates and
+ * prints the tables of docs/ggx.md. */
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
 #include "tests/oracle/oracle.h"
@@ -22,11 +22,11 @@ static double angle_between(const double a[3], lmp_vec3 b) {
 static lmp_ggx_lobes lobes_of(const oracle_gltf *s) {
     lmp_ggx_lobes lobes;
     const lmp_vec3 view = { (float)-sin(s->view), 0, (float)cos(s->view) };
-    lmp_lobe_ggx((lmp_vec3) { 0, 0, 1 }, view, (float)sqrt(s->alpha), &lobes);
+    lmp_lobe_find_ggx((lmp_vec3) { 0, 0, 1 }, view, (float)sqrt(s->alpha), &lobes);
     return lobes;
 }
 
-/* The same by the lobes. */
+/* Returns the radiance by the lobes. */
 static double by_lobes(const oracle_gltf *s, const lmp_ggx_lobes *lobes, const double middle[3],
                        double a) {
     double sum = 0;
@@ -42,15 +42,15 @@ static double by_lobes(const oracle_gltf *s, const lmp_ggx_lobes *lobes, const d
 /* --- how far they are apart ------------------------------------------------------------------- */
 
 typedef struct apart {
-    double rms, largest; /* in parts of the peak */
-    double energy;       /* that of the lobes in parts of the exact one */
+    double rms, largest; /* relative to the peak */
+    double energy;       /* energy of the lobes relative to the exact one */
 } apart;
 
 /* Caps around the mirror direction out to `reach`, on one side of the plane of incidence. */
 typedef struct cap_grid {
     double half_angle, reach;
     int distances, azimuths;
-    double lowest; /* middles that are lower over the horizon are left out */
+    double lowest; /* middles lower over the horizon are left out */
 } cap_grid;
 
 static void cap_middle(const oracle_gltf *s, const cap_grid *caps, int i, int k, double middle[3]) {
@@ -61,7 +61,7 @@ static void cap_middle(const oracle_gltf *s, const cap_grid *caps, int i, int k,
     middle[2] = cos(rho) * cos(s->view) - along * sin(s->view);
 }
 
-/* weighted: by the solid angle that a cap stands for. */
+/* Compares over caps; `weighted` means by the solid angle that a cap stands for. */
 static apart compare(const oracle_gltf *s, const cap_grid *caps, bool weighted) {
     const lmp_ggx_lobes lobes = lobes_of(s);
     check_errors errors = { 0 };
@@ -88,7 +88,7 @@ static apart compare(const oracle_gltf *s, const cap_grid *caps, bool weighted) 
 /* --- tests ------------------------------------------------------------------------------------ */
 
 /* The specular reflection of a glTF dielectric under a cap of half angle 20 degrees, 40 degrees
- * from the normal, seen from 45 degrees at azimuth 170 of it: the value is proven to 5e-10. */
+ * from the normal, seen from 45 degrees at azimuth 170 of it: its value is proven to 5e-10. */
 static void the_exact_side_is_within_a_proven_enclosure(void **state) {
     (void)state;
     const oracle_gltf s = { 0.25, PI / 4, 0.04, 1, 0 };
@@ -97,7 +97,8 @@ static void the_exact_side_is_within_a_proven_enclosure(void **state) {
     CHECK_WITHIN(fabs(oracle_gltf_cap(&s, middle, 20 * PI / 180) - 0.0154939526608), 5e-10);
 }
 
-/* Closed forms: a cap around the axis, and one under the cosine above the horizon. */
+/* The closed forms are those of a cap around the axis, and of one under the cosine above the
+ * horizon. */
 static void phong_lobes_over_caps_have_their_closed_forms(void **state) {
     (void)state;
     const double exponents[] = { 0.1, 1, 30, 1e6 };
@@ -108,9 +109,9 @@ static void phong_lobes_over_caps_have_their_closed_forms(void **state) {
     CHECK_WITHIN(fabs(oracle_phong_cap(1, 0.8, 0.3) - sin(0.3) * sin(0.3) * cos(0.8)), 1e-12);
 }
 
-/* A white metal under caps of half angle 0.15 above the horizon, and the largest and the rms error
- * of linearly transformed cosines (Heitz et al. 2016, the published table) on such caps, rounded to
- * a thousandth: the bounds. */
+/* Bounds of a white metal under caps of half angle 0.15 above the horizon: the largest and the rms
+ * error of linearly transformed cosines (Heitz et al. 2016, the published table) on such caps,
+ * rounded to a thousandth. */
 static const struct around {
     double roughness, degrees, ltc_largest, ltc_rms;
 } around[] = {
@@ -137,13 +138,13 @@ static void lobes_follow_ggx_around_the_mirror_direction(void **state) {
     }
 }
 
-/* A plate under one sphere, which from every pixel is in another direction: r/d, roughnesses and
+/* A plate under one sphere, which is in another direction from every pixel: r/d, roughnesses and
  * angles of the view. */
 static const double plate_sizes[] = { 0.8, 0.05, 0.2, 0.1, 0.4 };
 static const double plate_roughnesses[] = { 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1 };
 static const double plate_views[] = { 0, 50, 80 };
 
-/* The worst of the sizes; adds the rms of each. */
+/* Returns the worst comparison of the sizes; adds the rms of each. */
 static apart compare_plates(const oracle_gltf *s, check_errors *all) {
     apart worst = { 0, 0, 1 };
     for (int k = 0; k < check_count(2, 5); k++) {
@@ -203,8 +204,8 @@ static void add_plates(double roughness, double degrees, bool metal, plate_range
     range->above_largest += !(worst.largest <= 0.13);
 }
 
-/* Between the nodes of the table, too, and toward the horizon, where the fits are worse: the bounds
- * are what they reach. The short form has the worst of each range. */
+/* Plates lie between the nodes of the table, too, and toward the horizon, where the fits are worse:
+ * the bounds are what they reach. The short form has the worst plate of each range. */
 static void plates_of_all_views_err_as_the_page_says(void **state) {
     (void)state;
     static const struct {
@@ -236,8 +237,7 @@ static void plates_of_all_views_err_as_the_page_says(void **state) {
     }
 }
 
-/* Under a uniform sky. What GGX loses, light that would leave after several reflections, is lost.
- */
+/* The sky is uniform. What GGX loses, light that would leave after several reflections, is lost. */
 static void a_white_metal_reflects_what_ggx_does(void **state) {
     (void)state;
     static const double normal[3] = { 0, 0, 1 }, degrees[] = { 0, 25, 45, 65, 85 };
@@ -260,7 +260,7 @@ static void a_white_metal_reflects_what_ggx_does(void **state) {
     }
 }
 
-/* ∫ (1 - v·h)^5 cos / pi. */
+/* Compares with ∫ (1 - v·h)^5 cos / pi. */
 static void the_diffuse_part_loses_what_is_reflected(void **state) {
     (void)state;
     static const double normal[3] = { 0, 0, 1 };
@@ -276,7 +276,7 @@ static void the_diffuse_part_loses_what_is_reflected(void **state) {
     }
 }
 
-/* By how much lobes differ, each in parts of the whole reflection. */
+/* Returns the difference of lobes, each relative to the whole reflection. */
 static double difference(const lmp_ggx_lobes *a, const lmp_ggx_lobes *b) {
     check_errors errors = { 0 };
     check_errors_add(&errors, fabs((double)a->diffuse_f0 - (double)b->diffuse_f0));
@@ -295,12 +295,12 @@ static double difference(const lmp_ggx_lobes *a, const lmp_ggx_lobes *b) {
 static lmp_ggx_lobes lobes_at(double cosine, double roughness) {
     lmp_ggx_lobes lobes;
     const lmp_vec3 view = { (float)sqrt(1 - cosine * cosine), 0, (float)cosine };
-    lmp_lobe_ggx((lmp_vec3) { 0, 0, 1 }, view, (float)roughness, &lobes);
+    lmp_lobe_find_ggx((lmp_vec3) { 0, 0, 1 }, view, (float)roughness, &lobes);
     return lobes;
 }
 
-/* A step of a hundredth of the table's size moves no lobe by more than a small part; of a mirror
- * the exponent alone changes by 4 % a hundredth. */
+/* A step of a hundredth of the table's size moves no lobe by more than a small fraction; for a
+ * mirror only the exponent changes, by 4 % a hundredth. */
 static void lobes_change_smoothly_with_view_and_roughness(void **state) {
     (void)state;
     const double step = 1e-4;
@@ -315,7 +315,7 @@ static void lobes_change_smoothly_with_view_and_roughness(void **state) {
     }
 }
 
-/* The fits were made at the table's nodes: between them, too, lobes follow GGX. */
+/* The fits were made at the table's nodes; between them lobes follow GGX, too. */
 static void lobes_follow_ggx_everywhere(void **state) {
     (void)state;
     for (int i = 0; i < check_count(60, 500); i++) {
@@ -329,8 +329,8 @@ static void lobes_follow_ggx_everywhere(void **state) {
     }
 }
 
-/* Lobes of negative weight take from others: of lights over the horizon, were they as small as
- * points, hardly anything is reflected below 0. */
+/* Lobes of negative weight take from others: of lights above the horizon, even as small as points,
+ * hardly anything is reflected below 0. */
 static void no_small_light_is_reflected_below_nothing(void **state) {
     (void)state;
     double least = 0;
@@ -375,7 +375,7 @@ static void axes_lie_in_the_plane_of_incidence_on_the_mirror_side(void **state) 
         const lmp_vec3 n = check_random_direction(), v = check_random_direction();
         const float along = n.x * v.x + n.y * v.y + n.z * v.z;
         lmp_ggx_lobes lobes;
-        lmp_lobe_ggx(n, v, (float)check_random(), &lobes);
+        lmp_lobe_find_ggx(n, v, (float)check_random(), &lobes);
         const lmp_vec3 side = { n.y * v.z - n.z * v.y, n.z * v.x - n.x * v.z,
                                 n.x * v.y - n.y * v.x };
         const lmp_vec3 mirror = { n.x * along - v.x, n.y * along - v.y, n.z * along - v.z };
@@ -396,7 +396,7 @@ static void texels_hold_the_lobes_and_else_nothing(void **state) {
     enum { ROWS = 32, LAST = LMP_GGX_TEXELS - ROWS };
     static float texels[4 * LMP_GGX_TEXELS + 1];
     texels[4 * LMP_GGX_TEXELS] = 7;
-    lmp_lobe_ggx_texels(texels);
+    lmp_lobe_copy_ggx_texels(texels);
     for (int i = 0; i < ROWS; i++) {
         const float *texel = texels + 4 * (LAST + i);
         assert_true(texel[0] > 0 && texel[0] < 1 && texel[1] > 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Numbers of 16 bits: every one of them, and floats on all sides of them, against their definition
- * in double; by every instruction set the same bits. */
+/* Every number of 16 bits, and floats on all sides of them, against their definition in double,
+ * with the same bits on every instruction set. */
 #include "tests/oracle/check.h"
 
 #include <lampion/cpu.h>
@@ -15,7 +15,7 @@ enum { HALVES = 65536, FLOATS = 1 << 16 };
 static uint16_t halves[HALVES], packed[FLOATS];
 static float values[HALVES], floats[FLOATS];
 
-/* A half's value, as IEEE 754 has it: sign, 5 bits of exponent, 10 of the significand. */
+/* Returns a half's value by IEEE 754: sign, 5 bits of exponent, 10 of the significand. */
 static double value_of(uint16_t half) {
     const int exponent = half >> 10 & 31, significand = half & 1023;
     const double size = exponent == 0    ? ldexp(significand, -24)
@@ -24,7 +24,8 @@ static double value_of(uint16_t half) {
     return half & 0x8000 ? -size : size;
 }
 
-/* The nearest half of at least 0, of two the even one; past the greatest as if there were more. */
+/* Returns the nearest half of at least 0, the even one of two; past the greatest as if there were
+ * more. */
 static uint16_t nearest(double size) {
     uint16_t below = 0, above = 0x7c00;
     while (above - below > 1) {
@@ -55,12 +56,12 @@ static void every_half_comes_back(void **test) {
     (void)test;
     static uint16_t back[HALVES];
     for (unsigned flag = LMP_CPU_SCALAR; flag <= lmp_cpu_flags(); flag *= 2) {
-        if (lmp_cpu_mask(flag) != flag)
+        if (lmp_cpu_limit(flag) != flag)
             continue;
         for (int i = 0; i < HALVES; i++)
             halves[i] = (uint16_t)i;
-        lmp_sh_unpack_half(halves, HALVES, values);
-        lmp_sh_pack_half(values, HALVES, back);
+        lmp_sh_unpack_half_n(halves, HALVES, values);
+        lmp_sh_pack_half_n(values, HALVES, back);
         for (int i = 0; i < HALVES; i++) {
             const double expected = value_of(halves[i]);
             const bool nan = isnan(expected);
@@ -71,10 +72,10 @@ static void every_half_comes_back(void **test) {
                 assert_int_equal(bits_of(values[i]) & 0x7fffff, (i & 0x3ff) << 13 | 0x400000);
         }
     }
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
 }
 
-/* Halves, those in the middle of two, and the floats next to each; then any bits. */
+/* Fills in halves, midpoints of two, the floats next to each, and then random bits. */
 static void fill(void) {
     for (int i = 0; i < FLOATS; i++) {
         const uint32_t half = (uint32_t)i * 2654435761u >> 16 & 0x7bff;
@@ -97,9 +98,9 @@ static void floats_become_the_nearest_half(void **test) {
     (void)test;
     fill();
     for (unsigned flag = LMP_CPU_SCALAR; flag <= lmp_cpu_flags(); flag *= 2) {
-        if (lmp_cpu_mask(flag) != flag)
+        if (lmp_cpu_limit(flag) != flag)
             continue;
-        lmp_sh_pack_half(floats, FLOATS, packed);
+        lmp_sh_pack_half_n(floats, FLOATS, packed);
         for (int i = 0; i < FLOATS; i++) {
             const uint32_t bits = bits_of(floats[i]), sign = bits >> 16 & 0x8000;
             const uint32_t size = isnan(floats[i])   ? 0x7e00 | (bits >> 13 & 0x3ff)
@@ -108,7 +109,7 @@ static void floats_become_the_nearest_half(void **test) {
             assert_int_equal(packed[i], sign | size);
         }
     }
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
 }
 
 static void any_count_is_taken_and_nothing_else_is_written(void **test) {
@@ -116,18 +117,18 @@ static void any_count_is_taken_and_nothing_else_is_written(void **test) {
     uint16_t some[80];
     float back[80];
     for (unsigned flag = LMP_CPU_SCALAR; flag <= lmp_cpu_flags(); flag *= 2)
-        for (size_t count = 0; count <= 70 && lmp_cpu_mask(flag) == flag; count++) {
+        for (size_t count = 0; count <= 70 && lmp_cpu_limit(flag) == flag; count++) {
             memset(some, 0x11, sizeof some);
             memset(back, 0x11, sizeof back);
-            lmp_sh_pack_half(floats + 100, count, some + 3);
-            lmp_sh_unpack_half(some + 3, count, back + 3);
+            lmp_sh_pack_half_n(floats + 100, count, some + 3);
+            lmp_sh_unpack_half_n(some + 3, count, back + 3);
             for (size_t i = 0; i < 80; i++) {
                 const bool inside = i >= 3 && i < 3 + count;
                 assert_int_equal(some[i], inside ? packed[100 + i - 3] : 0x1111);
                 assert_true(inside || bits_of(back[i]) == 0x11111111);
             }
         }
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
 }
 
 int main(void) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What every function that takes long does with its host: it can be cancelled at any question, its
- * progress ends at 1, and whatever happens it gives back what it took. */
+/* Every function that takes long treats its host alike: it can be cancelled at any question, its
+ * progress ends at 1, and in any case it releases what it allocated. */
 #include "tests/oracle/check.h"
 
 #include <lampion/lampion.h>
@@ -10,7 +10,8 @@
 
 /* --- the functions ---------------------------------------------------------------------------- */
 
-/* Makes something by a function that takes long, and frees it; NULL must stand where it fails. */
+/* Makes something by a function that takes long, and frees it; on failure the result must be NULL.
+ */
 typedef lmp_result (*attempt)(const lmp_host *host);
 
 static lmp_brdf *lambert(void) {
@@ -69,11 +70,11 @@ static lmp_result write_by(lmp_result (*write)(const lmp_host *, const lmp_brdf 
 }
 
 static lmp_result write_merl(const lmp_host *host) {
-    return write_by(lmp_brdf_write_merl, host);
+    return write_by(lmp_brdf_encode_merl, host);
 }
 
 static lmp_result write_rgl(const lmp_host *host) {
-    return write_by(lmp_brdf_write_rgl, host);
+    return write_by(lmp_brdf_encode_rgl, host);
 }
 
 static lmp_result fit_samples(const lmp_host *host) {
@@ -93,13 +94,13 @@ static lmp_result fit_samples(const lmp_host *host) {
 static const struct {
     const char *name;
     attempt make;
-    int stride; /* of the questions tried */
+    int stride; /* between the questions tried */
 } attempts[] = {
     { "lmp_brdf_table_create", make_table, 1 },
     { "lmp_preintegrated_lobe_create", make_preintegrated_lobe, 1 },
     { "lmp_preintegrated_brdf_create", make_preintegrated_brdf, 7 },
-    { "lmp_brdf_write_merl", write_merl, 40 },
-    { "lmp_brdf_write_rgl", write_rgl, 40 },
+    { "lmp_brdf_encode_merl", write_merl, 40 },
+    { "lmp_brdf_encode_rgl", write_rgl, 40 },
     { "lmp_probe_fit", fit_samples, 1 },
 };
 enum { ATTEMPTS = sizeof attempts / sizeof *attempts };

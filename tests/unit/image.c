@@ -9,14 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Coefficients of one texel of value 1 seen in direction w. */
+/* Expects the coefficients of one texel of value 1 seen in direction w. */
 static void expect_texel(int bands, const double w[3], double solid_angle, double *expected) {
     oracle_sh_eval(bands, w, expected);
     for (int k = 0; k < bands * bands; k++)
         expected[k] *= solid_angle;
 }
 
-/* A smooth function of 4 bands, by the oracle. */
+/* Evaluates a smooth function of 4 bands, by the oracle. */
 static double smooth(const double w[3]) {
     double sh[16], sum = 0;
     oracle_sh_eval(4, w, sh);
@@ -32,7 +32,7 @@ static double smooth_error(const float *sh) {
     return check_error(16, expected, sh);
 }
 
-/* A float as half, for values that are exact in it. */
+/* Converts a float to half, for values that are exact in it. */
 static uint16_t half_of(float value) {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -43,8 +43,8 @@ static uint16_t half_of(float value) {
 
 /* --- latitude-longitude ----------------------------------------------------------------------- */
 
-/* The texel that shows direction w, as the shaders of three.js and of glTF's sample viewer look it
- * up: u = atan(z, x) / 2 pi + 1/2, v = acos(y) / pi from the top. */
+/* Finds the texel that shows direction w, as the shaders of three.js and of glTF's sample viewer
+ * look it up: u = atan(z, x) / 2 pi + 1/2, v = acos(y) / pi from the top. */
 static void viewers_texel(const double w[3], int width, int height, int *row, int *column) {
     const double u = atan2(w[2], w[0]) / (2 * ORACLE_PI) + 0.5, v = acos(w[1]) / ORACLE_PI;
     *column = (int)fmin(u * width, width - 1);
@@ -96,14 +96,14 @@ static void a_constant_image_is_a_constant(void **state) {
         5, &(lmp_latlong) { .pixels = pixels, .width = WIDTH, .height = HEIGHT, .channels = 1 },
         sh);
     CHECK_WITHIN(fabs((double)sh[0] - sqrt(ORACLE_PI)), 1e-6);
-    /* the texels' own size is left in the others: of order 1/height² */
+    /* The texels' own size remains in the others: of order 1/height². */
     for (int k = 1; k < 25; k++)
         CHECK_WITHIN(fabsf(sh[k]), 1e-2);
     for (int m = -1; m <= 1; m++)
         CHECK_WITHIN(fabsf(sh[LMP_SH_INDEX(1, m)]), 1e-6);
 }
 
-/* Azimuth, mirror and up axis: the texel of w in the plain image stands for another direction. */
+/* Azimuth, mirroring and the up axis: the texel of w in the plain image shows another direction. */
 static void options_of_a_latlong_image_move_its_directions(void **state) {
     (void)state;
     enum { WIDTH = 40, HEIGHT = 20, ROW = 6, COLUMN = 27 };
@@ -133,7 +133,8 @@ static void options_of_a_latlong_image_move_its_directions(void **state) {
     CHECK_WITHIN(check_error(25, expected, sh), 1e-6);
 }
 
-/* Six channels with padded rows, planar and interleaved, float and half: the same coefficients. */
+/* Six channels with padded rows, planar and interleaved, float and half, give the same
+ * coefficients. */
 static void texels_are_read_by_their_strides(void **state) {
     (void)state;
     enum { WIDTH = 16, HEIGHT = 8, CHANNELS = 6, TEXELS = WIDTH * HEIGHT };
@@ -196,7 +197,8 @@ static void halves_of_every_size_are_read(void **state) {
 
 /* --- cube maps -------------------------------------------------------------------------------- */
 
-/* The face of direction w and where on it, in 0 … 1: table 8.19 of the OpenGL 4.6 specification. */
+/* Finds the face of direction w and the position on it, in 0 … 1: table 8.19 of the OpenGL 4.6
+ * specification. */
 static int specified_face(const double w[3], double *s, double *t) {
     const double x = fabs(w[0]), y = fabs(w[1]), z = fabs(w[2]);
     double sc, tc, ma;
@@ -216,8 +218,8 @@ static int specified_face(const double w[3], double *s, double *t) {
     return face;
 }
 
-/* A cube map of `size` texels a side that shows smooth() by the specification, found the long way:
- * each texel is the mean of what the directions that are looked up in it show. */
+/* Draws a cube map of `size` texels a side that shows smooth() by the specification, by brute
+ * force: each texel is the mean over the directions that are looked up in it. */
 static void draw_cube(int size, bool left_handed, float *texels, float *counts) {
     const int steps = 6 * size;
     for (int i = 0; i < 6 * size * size; i++)
@@ -272,7 +274,7 @@ static void the_solid_angles_of_a_cube_are_exact(void **state) {
     free(texels);
 }
 
-/* One texel of each face, its solid angle by quadrature over it. */
+/* One texel of each face is compared with its solid angle by quadrature over it. */
 static void a_texel_of_a_cube_weighs_its_solid_angle(void **state) {
     (void)state;
     enum { SIZE = 5 };

@@ -8,10 +8,10 @@
 
 #include <math.h>
 
-/* A surface at the origin whose normal is z, and a light whose axis has the angle to it. */
+/* A surface at the origin whose normal is z, and a light whose axis is at an angle to it. */
 typedef struct configuration {
     lmp_light light;
-    double expected, facing; /* irradiance, and that of a surface which faces the light */
+    double expected, facing; /* irradiance, and that of a surface facing the light */
 } configuration;
 
 static lmp_vec3 tilted(double angle, double length) {
@@ -25,7 +25,7 @@ static double cosine_of(lmp_vec3 v) {
     return z / sqrt(x * x + y * y + z * z);
 }
 
-/* As lampion/light.h has it: outside a cap of sin a = r/d, inside one that grows on. */
+/* Makes a sphere by lampion/light.h: outside a cap of sin a = r/d, inside one that grows on. */
 static configuration sphere_of(double distance, double radius, double angle) {
     configuration c = { .light = { .position = tilted(angle, distance),
                                    .radius = (float)radius,
@@ -40,7 +40,7 @@ static configuration sphere_of(double distance, double radius, double angle) {
     return c;
 }
 
-/* The angle, or one near the two at which the horizon begins and ends to cut the light. */
+/* Returns the angle, or one near the two at which the horizon begins and ends to cut the light. */
 static double angle_near(double half_angle) {
     const double angle = check_random_between(0, ORACLE_PI), near = check_random_between(-0.1, 0.1);
     const double side = check_random() < 0.5 ? 1 : -1;
@@ -66,7 +66,7 @@ static configuration random_other(lmp_light_kind kind) {
                                    .ground = { 0.25f, 0.25f, 0.25f } } };
     const double cosine = cosine_of(c.light.direction), beside = cosine_of(c.light.position);
     c.light.angle = (float)check_random_between(0, ORACLE_PI);
-    if (kind == LMP_LIGHT_SPOT) { /* whose axis is the light's back, and all comes */
+    if (kind == LMP_LIGHT_SPOT) { /* the axis points away from the light, and all arrives */
         const lmp_vec3 p = c.light.position;
         const float each = 1 / sqrtf(p.x * p.x + p.y * p.y + p.z * p.z);
         c.light.direction = (lmp_vec3) { -p.x * each, -p.y * each, -p.z * each };
@@ -91,15 +91,19 @@ static configuration random_other(lmp_light_kind kind) {
     case LMP_LIGHT_SPHERE:
     case LMP_LIGHT_POINT:
     case LMP_LIGHT_SPOT:
+    case LMP_LIGHT_RECTANGLE: /* areas have tests of their own, area.c */
+    case LMP_LIGHT_DISK:
+    case LMP_LIGHT_TUBE:
+    case LMP_LIGHT_POLYGON:
         c.facing = 1 / (d * d);
         c.expected = fmax(beside, 0) * c.facing;
     }
     return c;
 }
 
-/* Every other one a sphere, the rest of the other kinds in turn. */
+/* Makes random configurations: every other one a sphere, the rest of the other kinds in turn. */
 static configuration random_configuration(int i) {
-    return i % 2 ? random_other((lmp_light_kind)(1 + i / 2 % (LMP_LIGHT_KINDS - 1)))
+    return i % 2 ? random_other((lmp_light_kind)(1 + i / 2 % LMP_LIGHT_HEMISPHERE))
                  : random_sphere();
 }
 
@@ -133,7 +137,8 @@ static void lights_add_up(void **state) {
     assert_true(none.r == 0 && none.g == 0 && none.b == 0);
 }
 
-/* White paper under each light, by one method, with few bands and a window, which do not count. */
+/* White paper is shaded under each light by one method, with few bands and a window, which must not
+ * matter. */
 enum { COUNT = 2000 };
 
 static void check_white_paper(const lmp_shade_settings *settings) {
@@ -147,8 +152,8 @@ static void check_white_paper(const lmp_shade_settings *settings) {
                                    .view = lmp_vec3_array_same(&up),
                                    .material = &paper };
         const lmp_rgb alone = lmp_shade(settings, &paper, &surface, &c.light, 1);
-        lmp_rgb many[3]; /* of a whole vector, and what is left */
-        lmp_shade_n(settings, &one, 3, &c.light, 1, 0, &many[0].r);
+        lmp_rgb many[3]; /* a whole register of surfaces, and a rest */
+        lmp_shade_n(settings, &one, 3, &c.light, 1, lmp_rgb_array_of(many));
         check_errors_add(&errors, ((double)alone.g * ORACLE_PI - c.expected) / c.facing);
         check_errors_add(&errors, ((double)many[2].g * ORACLE_PI - c.expected) / c.facing);
     }

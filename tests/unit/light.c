@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Every kind of light against quadrature of what it is. */
+/* Every kind of light against quadrature of its definition. */
 #include "tests/oracle/check.h"
 #include "tests/oracle/oracle.h"
 
@@ -16,7 +16,8 @@ static void wide(lmp_vec3 v, double w[3]) {
     w[0] = (double)v.x, w[1] = (double)v.y, w[2] = (double)v.z;
 }
 
-/* The light's planes against `unit` times each channel of its color; bound relative. */
+/* Compares the light's planes with `unit` times each channel of its color; the bound is relative.
+ */
 static void check_planes(const lmp_light *light, lmp_vec3 point, const double *unit,
                          lmp_rgb color) {
     float sh[3 * COUNT];
@@ -29,7 +30,7 @@ static void check_planes(const lmp_light *light, lmp_vec3 point, const double *u
     CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-5);
 }
 
-/* lmp_light_zonal says the same as lmp_light_project of color 1. */
+/* Compares lmp_light_project_zonal with lmp_light_project for color 1. */
 static void check_zonal(const lmp_light *light, lmp_vec3 point) {
     lmp_light white = *light;
     white.radiance = (lmp_rgb) { 1, 1, 1 };
@@ -38,8 +39,8 @@ static void check_zonal(const lmp_light *light, lmp_vec3 point) {
     double expected[COUNT];
     lmp_vec3 axis;
     lmp_light_project(BANDS, &white, 1, point, sh);
-    lmp_light_zonal(BANDS, light, point, zonal, &axis);
-    lmp_sh_from_zonal(BANDS, zonal, axis, rotated);
+    lmp_light_project_zonal(BANDS, light, point, zonal, &axis);
+    lmp_sh_expand_zonal(BANDS, zonal, axis, rotated);
     for (int k = 0; k < COUNT; k++)
         expected[k] = (double)sh[k];
     CHECK_WITHIN(check_error(COUNT, expected, rotated), 1e-5);
@@ -68,7 +69,7 @@ static void a_sphere_is_the_cap_it_covers(void **state) {
             wide_sh[k] = (double)sh[k];
         check_planes(&light, point, wide_sh, light.radiance);
         lmp_vec3 axis;
-        lmp_light_zonal(BANDS, &light, point, zonal, &axis);
+        lmp_light_project_zonal(BANDS, &light, point, zonal, &axis);
         CHECK_WITHIN(fabsf(axis.x - w.x) + fabsf(axis.y - w.y) + fabsf(axis.z - w.z), 2e-6);
     }
 }
@@ -177,7 +178,7 @@ static void a_spot_light_with_equal_cones_has_a_hard_edge(void **state) {
     const float full = sh[0];
     lmp_light_project(BANDS, &spot, 1, (lmp_vec3) { tanf(0.51f), 0, 0 }, sh);
     assert_true(sh[0] == 0);
-    /* half way over the 1e-3 that the difference of the cosines is held to */
+    /* Halfway over the 1e-3 to which the difference of the cosines is clamped. */
     lmp_light_project(BANDS, &spot, 1, (lmp_vec3) { (float)tan(acos(cos(0.5) + 5e-4)), 0, 0 }, sh);
     CHECK_WITHIN(fabsf(sh[0] / full - 0.25f), 0.01);
 }
@@ -251,7 +252,7 @@ static void lights_add_up(void **state) {
         assert_true(sh[k] == 0);
 }
 
-/* Some of the channels, each where it belongs: the same bits, and nothing beside them. */
+/* Channels written one by one have the same bits, and nothing beside them changes. */
 static void channels_go_where_they_belong(void **state) {
     (void)state;
     enum { STRIDE = COUNT + 7 };
@@ -264,17 +265,17 @@ static void channels_go_where_they_belong(void **state) {
     };
     float sh[3 * COUNT], apart[3 * STRIDE];
     lmp_light_project(BANDS, lights, 2, origin, sh);
-    for (int left_out = -1; left_out < 3; left_out++) {
+    for (int missing = -1; missing < 3; missing++) {
         float *planes[3];
         for (int i = 0; i < 3 * STRIDE; i++)
             apart[i] = -77;
         for (int c = 0; c < 3; c++)
-            planes[c] = c == left_out ? NULL : apart + c * STRIDE;
+            planes[c] = c == missing ? NULL : apart + c * STRIDE;
         lmp_light_project_channels(BANDS, lights, 2, origin, planes[0], planes[1], planes[2]);
         for (int c = 0; c < 3; c++) {
-            for (int i = c == left_out ? 0 : COUNT; i < STRIDE; i++)
+            for (int i = c == missing ? 0 : COUNT; i < STRIDE; i++)
                 assert_true(apart[c * STRIDE + i] == -77);
-            if (c != left_out)
+            if (c != missing)
                 assert_memory_equal(apart + c * STRIDE, sh + c * COUNT, COUNT * sizeof *sh);
         }
     }
@@ -311,16 +312,17 @@ static void a_sphere_sends_its_power_through_any_shell(void **state) {
 static void the_sun_has_the_radiance_its_irradiance_says(void **state) {
     (void)state;
     const float angle = (float)(0.2665 * ORACLE_PI / 180);
-    CHECK_WITHIN(fabs((double)lmp_cap_radiance_from_irradiance(1, angle) / 14713 - 1), 1e-4);
-    CHECK_WITHIN(
-        fabsf(lmp_cap_irradiance_from_radiance(lmp_cap_radiance_from_irradiance(2, angle), angle) -
-              2),
-        1e-5);
-    CHECK_WITHIN(fabs((double)lmp_cap_irradiance_from_radiance(1, 1.5707963f) - ORACLE_PI), 1e-6);
+    CHECK_WITHIN(fabs((double)lmp_light_cap_radiance_from_irradiance(1, angle) / 14713 - 1), 1e-4);
+    CHECK_WITHIN(fabsf(lmp_light_cap_irradiance_from_radiance(
+                           lmp_light_cap_radiance_from_irradiance(2, angle), angle) -
+                       2),
+                 1e-5);
+    CHECK_WITHIN(fabs((double)lmp_light_cap_irradiance_from_radiance(1, 1.5707963f) - ORACLE_PI),
+                 1e-6);
 }
 
-/* On either side of the range, of a light in front of the surface; irradiance is that of the cap,
- * as light.h has it, of at most a hemisphere. */
+/* Compares on either side of the range, for a light in front of the surface; irradiance is that of
+ * the cap by light.h, of at most a hemisphere. */
 static void a_light_is_no_more_than_was_asked_beyond_its_range(void **state) {
     (void)state;
     const float asked = 0.05f;
@@ -339,7 +341,7 @@ static void a_light_is_no_more_than_was_asked_beyond_its_range(void **state) {
             const lmp_vec3 w = light.direction;
             const lmp_vec3 point = { distances[k] * w.x, distances[k] * w.y, distances[k] * w.z };
             lmp_cap cap;
-            lmp_light_cap(&light, point, &cap);
+            lmp_light_find_cap(&light, point, &cap);
             const float there =
                 fmaxf(fabsf(cap.strength.r), fmaxf(fabsf(cap.strength.g), fabsf(cap.strength.b)));
             assert_true(k == 0 ? there > asked : there <= asked);
@@ -371,7 +373,7 @@ static void lights_without_a_position_reach_everywhere_or_nowhere(void **state) 
     assert_true(lmp_light_range(&above, 15.7f) == INFINITY && lmp_light_range(&above, 15.8f) == 0);
     for (int i = 0; i < 3; i++) {
         cap.angle = angles[i];
-        const float most = lmp_cap_irradiance_from_radiance(3, fminf(angles[i], 1.5707963f));
+        const float most = lmp_light_cap_irradiance_from_radiance(3, fminf(angles[i], 1.5707963f));
         assert_true(lmp_light_range(&cap, 0.999f * most) == INFINITY);
         assert_true(lmp_light_range(&cap, 1.001f * most) == 0);
     }

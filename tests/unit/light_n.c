@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Lights of any kind at many points: what lmp_light_project says of each point, alone and mixed,
- * with what comes past blockers, and added to what is there. */
+/* Lights of any kind at many points: what lmp_light_project returns for each point, alone and
+ * mixed, with visibility, and added to what is there. */
 #include "tests/oracle/check.h"
 #include "tests/oracle/kinds.h"
 
@@ -18,8 +18,8 @@ static lmp_light lights[LIGHTS];
 static float visibility[LIGHTS * POINTS];
 static float out[POINTS * (VALUES + 8)], other[POINTS * (VALUES + 8)];
 
-/* Lights of every kind, moved and rotated; the first points are where a point light is, on the axis
- * of a spot, within a sphere. Members that a kind does not name are no numbers. */
+/* Fills in lights of every kind, moved and rotated; the first points are where a point light is, on
+ * the axis of a spot, and within a sphere. Members that a kind does not name are NaN. */
 static int fill(void **test) {
     (void)test;
     for (int i = 0; i < LIGHTS; i++) {
@@ -52,8 +52,8 @@ static int fill(void **test) {
     return 0;
 }
 
-/* Of the largest value. Few lights and bands: what rounding makes of a cone that fades, whose
- * slope is 2 / (cos inner - cos outer). */
+/* Compares relative to the largest value. With few lights and bands the bound is the rounding of a
+ * cone that fades, whose slope is 2 / (cos inner - cos outer). */
 static void check_same(size_t count, const float *expected, const float *actual) {
     double wide[VALUES];
     for (size_t i = 0; i < count; i++)
@@ -61,7 +61,8 @@ static void check_same(size_t count, const float *expected, const float *actual)
     CHECK_WITHIN(check_error(count, wide, actual), 1e-5);
 }
 
-/* Every light by itself, times what comes of it; of 1 the same as all at once, but for rounding. */
+/* Expects the sum of every light by itself, times its visibility; with 1 that is the sum of all at
+ * once, up to rounding. */
 static void expect(int bands, const lmp_light *of, size_t count, const float *visible,
                    size_t stride, lmp_vec3 point, float *sh) {
     const size_t values = 3 * LMP_SH_COUNT(bands);
@@ -76,7 +77,7 @@ static void expect(int bands, const lmp_light *of, size_t count, const float *vi
         sh[v] = (float)sums[v];
 }
 
-/* In both layouts, whatever the strides; and what lies between stays. */
+/* Checks both layouts, with any stride; what lies between is left alone. */
 static void check_all(int bands, const lmp_light *of, size_t count, const float *visible,
                       size_t point_count) {
     const size_t values = 3 * LMP_SH_COUNT(bands), row = values + 3, plane = point_count + 5;
@@ -84,9 +85,9 @@ static void check_all(int bands, const lmp_light *of, size_t count, const float 
     for (size_t i = 0; i < sizeof out / sizeof *out; i++)
         out[i] = other[i] = -77;
     lmp_light_project_n(NULL, bands, of, count, visible, lmp_vec3_array_of(points), point_count,
-                        LMP_SH_INTERLEAVED, row * sizeof(float), out);
+                        lmp_sh_interleaved(out, row * sizeof(float)));
     lmp_light_project_n(NULL, bands, of, count, visible, lmp_vec3_array_of(points), point_count,
-                        LMP_SH_PLANAR, plane * sizeof(float), other);
+                        lmp_sh_planar(other, plane * sizeof(float)));
     for (size_t p = 0; p < point_count; p++) {
         expect(bands, of, count, visible ? visible + p : NULL, point_count, points[p], expected);
         check_same(values, expected, out + p * row);
@@ -131,9 +132,9 @@ static void visibility_weighs_lights_of_every_kind(void **test) {
     for (int i = 0; i < LIGHTS * POINTS; i++)
         visibility[i] = 1;
     lmp_light_project_n(NULL, 6, lights, LIGHTS, visibility, lmp_vec3_array_of(points), POINTS,
-                        LMP_SH_INTERLEAVED, 0, out);
+                        lmp_sh_interleaved(out, 0));
     lmp_light_project_n(NULL, 6, lights, LIGHTS, NULL, lmp_vec3_array_of(points), POINTS,
-                        LMP_SH_INTERLEAVED, 0, other);
+                        lmp_sh_interleaved(other, 0));
     assert_memory_equal(out, other, POINTS * 3 * 36 * sizeof *out);
     fill(NULL);
 }
@@ -142,14 +143,14 @@ static void no_lights_are_dark_and_no_points_are_nothing(void **test) {
     (void)test;
     for (size_t i = 0; i < sizeof out / sizeof *out; i++)
         out[i] = -77;
-    lmp_light_project_n(NULL, 5, NULL, 0, NULL, lmp_vec3_array_of(points), 3, LMP_SH_INTERLEAVED, 0,
-                        out);
+    lmp_light_project_n(NULL, 5, NULL, 0, NULL, lmp_vec3_array_of(points), 3,
+                        lmp_sh_interleaved(out, 0));
     for (int i = 0; i < 4 * 75; i++)
         assert_true(out[i] == (i < 3 * 75 ? 0 : -77));
-    lmp_light_project_n(NULL, 5, lights, LIGHTS, NULL, lmp_vec3_array_of(NULL), 0, LMP_SH_PLANAR, 0,
-                        out + 4 * 75);
-    lmp_light_add_n(NULL, 5, NULL, 0, NULL, lmp_vec3_array_of(points), 3, LMP_SH_PLANAR, 0,
-                    out + 4 * 75);
+    lmp_light_project_n(NULL, 5, lights, LIGHTS, NULL, lmp_vec3_array_of(NULL), 0,
+                        lmp_sh_planar(out + 4 * 75, 0));
+    lmp_light_add_n(NULL, 5, NULL, 0, NULL, lmp_vec3_array_of(points), 3,
+                    lmp_sh_planar(out + 4 * 75, 0));
     for (size_t i = 4 * 75; i < sizeof out / sizeof *out; i++)
         assert_true(out[i] == -77);
 }
@@ -164,39 +165,38 @@ static void spheres_alone_have_the_bits_of_their_own_function(void **test) {
     const lmp_spheres same = lmp_spheres_of(spheres);
     const lmp_vec3_array at = lmp_vec3_array_of(points);
     for (size_t count = 1; count <= POINTS; count += 149) {
-        lmp_light_project_n(NULL, 7, spheres, LIGHTS, visibility, at, count, LMP_SH_PLANAR, 0, out);
-        lmp_sphere_accumulate_visible_n(NULL, 7, &same, LIGHTS, visibility, at, count,
-                                        LMP_SH_PLANAR, 0, other);
+        lmp_light_project_n(NULL, 7, spheres, LIGHTS, visibility, at, count, lmp_sh_planar(out, 0));
+        lmp_sphere_sum_n(NULL, 7, &same, LIGHTS, visibility, at, count, lmp_sh_planar(other, 0));
         assert_memory_equal(out, other, count * 147 * sizeof *out);
     }
 }
 
-/* Sums and what is added to them, of as many points and bands. */
+/* Sums lights, and adds them to what is there, for as many points and bands. */
 static void sum_twice(int bands, size_t light_count, const float *visible, size_t first,
                       size_t count, float *sh) {
     const lmp_vec3_array at = lmp_vec3_array_of(points + first);
-    lmp_light_project_n(NULL, bands, lights, light_count, visible, at, count, LMP_SH_INTERLEAVED, 0,
-                        sh);
+    lmp_light_project_n(NULL, bands, lights, light_count, visible, at, count,
+                        lmp_sh_interleaved(sh, 0));
     lmp_light_add_n(NULL, bands, lights + 3, light_count - 3, visible, at, count,
-                    LMP_SH_INTERLEAVED, 0, sh);
+                    lmp_sh_interleaved(sh, 0));
 }
 
 static void neither_a_split_nor_an_instruction_set_changes_a_bit(void **test) {
     (void)test;
     static const int bands[] = { 1, 3, 6, 10, 20 };
     for (unsigned flag = LMP_CPU_SCALAR; flag <= lmp_cpu_flags(); flag *= 2)
-        for (int b = 0; b < 5 && lmp_cpu_mask(flag) == flag; b++) {
+        for (int b = 0; b < 5 && lmp_cpu_limit(flag) == flag; b++) {
             const size_t values = 3 * LMP_SH_COUNT(bands[b]);
-            lmp_cpu_mask(LMP_CPU_SCALAR);
+            lmp_cpu_limit(LMP_CPU_SCALAR);
             sum_twice(bands[b], LIGHTS, NULL, 0, POINTS, out);
-            lmp_cpu_mask(flag);
+            lmp_cpu_limit(flag);
             for (size_t first = 0, n = 1; first < POINTS; first += n, n += 1 + n / 2) {
                 n = n < POINTS - first ? n : POINTS - first;
                 sum_twice(bands[b], LIGHTS, NULL, first, n, other + first * values);
             }
             assert_memory_equal(out, other, POINTS * values * sizeof *out);
         }
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
 }
 
 static void added_lights_are_those_of_a_sum(void **test) {
@@ -206,10 +206,10 @@ static void added_lights_are_those_of_a_sum(void **test) {
             const size_t values = 3 * LMP_SH_COUNT(bands);
             const lmp_vec3_array at = lmp_vec3_array_of(points);
             float before[VALUES], after[VALUES], sum[VALUES];
-            lmp_light_project_n(NULL, bands, lights, 40, visibility, at, count, LMP_SH_PLANAR, 0,
-                                out);
+            lmp_light_project_n(NULL, bands, lights, 40, visibility, at, count,
+                                lmp_sh_planar(out, 0));
             lmp_light_add_n(NULL, bands, lights + 40, LIGHTS - 40, visibility + 40 * count, at,
-                            count, LMP_SH_PLANAR, 0, out);
+                            count, lmp_sh_planar(out, 0));
             for (size_t p = 0; p < count; p++) {
                 expect(bands, lights, 40, visibility + p, count, points[p], before);
                 expect(bands, lights + 40, LIGHTS - 40, visibility + 40 * count + p, count,
@@ -223,12 +223,13 @@ static void added_lights_are_those_of_a_sum(void **test) {
         }
 }
 
-/* As light.h bounds it: each addition rounds once, what it adds is the same each time. */
+/* The bound is that of light.h: each addition rounds once, and what it adds is the same each time.
+ */
 static void a_light_taken_away_leaves_rounding_alone(void **test) {
     (void)test;
     enum { TIMES = 1000, BANDS = 5, N = 3 * BANDS * BANDS };
     const lmp_vec3_array at = lmp_vec3_array_of(points + 5);
-    lmp_light_project_n(NULL, BANDS, lights, KINDS, NULL, at, 1, LMP_SH_INTERLEAVED, 0, other);
+    lmp_light_project_n(NULL, BANDS, lights, KINDS, NULL, at, 1, lmp_sh_interleaved(other, 0));
     for (int kind = 0; kind < KINDS; kind++) {
         lmp_light negative = lights[kind];
         negative.radiance =
@@ -237,10 +238,10 @@ static void a_light_taken_away_leaves_rounding_alone(void **test) {
         float most = 0;
         memcpy(out, other, N * sizeof *out);
         for (int i = 0; i < TIMES; i++) {
-            lmp_light_add_n(NULL, BANDS, &lights[kind], 1, NULL, at, 1, LMP_SH_INTERLEAVED, 0, out);
+            lmp_light_add_n(NULL, BANDS, &lights[kind], 1, NULL, at, 1, lmp_sh_interleaved(out, 0));
             for (int v = 0; v < N; v++)
                 most = fmaxf(most, fabsf(out[v]));
-            lmp_light_add_n(NULL, BANDS, &negative, 1, NULL, at, 1, LMP_SH_INTERLEAVED, 0, out);
+            lmp_light_add_n(NULL, BANDS, &negative, 1, NULL, at, 1, lmp_sh_interleaved(out, 0));
         }
         for (int v = 0; v < N; v++)
             CHECK_WITHIN(fabsf(out[v] - other[v]), TIMES * 0x1p-23f * most);

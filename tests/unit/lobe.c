@@ -23,11 +23,11 @@ static void matches_the_vector_file(void **state) {
         float lambda[32];
         check_csv_numbers(csv, row, 2, 32, expected);
         if (strcmp(kind, "cosine") == 0)
-            lmp_lobe_diffuse(32, lambda);
+            lmp_lobe_make_diffuse(32, lambda);
         else if (strcmp(kind, "phong") == 0)
-            lmp_lobe_phong(32, exponent, lambda);
+            lmp_lobe_make_phong(32, exponent, lambda);
         else
-            lmp_lobe_vmf(32, exponent, lambda);
+            lmp_lobe_make_vmf(32, exponent, lambda);
         for (int l = 0; l < 32; l++)
             CHECK_WITHIN(fabs((double)lambda[l] - expected[l]), 3e-6);
     }
@@ -40,16 +40,16 @@ static void matches_quadrature_at_128_bands(void **state) {
     const float concentrations[] = { 1e-6f, 0.1f, 1, 10, 300, 1e5f, 1e8f };
     double expected[LMP_BANDS_MAX];
     float lambda[LMP_BANDS_MAX];
-    lmp_lobe_diffuse(LMP_BANDS_MAX, lambda);
+    lmp_lobe_make_diffuse(LMP_BANDS_MAX, lambda);
     oracle_lobe_diffuse(LMP_BANDS_MAX, expected);
     CHECK_WITHIN(check_error(LMP_BANDS_MAX, expected, lambda), 1e-7);
     for (int i = 0; i < 10; i++) {
-        lmp_lobe_phong(LMP_BANDS_MAX, exponents[i], lambda);
+        lmp_lobe_make_phong(LMP_BANDS_MAX, exponents[i], lambda);
         oracle_lobe_phong(LMP_BANDS_MAX, (double)exponents[i], expected);
         CHECK_WITHIN(check_error(LMP_BANDS_MAX, expected, lambda), 1e-7);
     }
     for (int i = 0; i < 7; i++) {
-        lmp_lobe_vmf(LMP_BANDS_MAX, concentrations[i], lambda);
+        lmp_lobe_make_vmf(LMP_BANDS_MAX, concentrations[i], lambda);
         oracle_lobe_vmf(LMP_BANDS_MAX, (double)concentrations[i], expected);
         CHECK_WITHIN(check_error(LMP_BANDS_MAX, expected, lambda), 1e-7);
     }
@@ -64,7 +64,7 @@ static void vmf_does_not_depend_on_the_number_of_bands(void **state) {
     for (int i = 0; i < 6; i++) {
         oracle_lobe_vmf(12, (double)concentrations[i], expected);
         for (int bands = 1; bands <= 12; bands++) {
-            lmp_lobe_vmf(bands, concentrations[i], lambda);
+            lmp_lobe_make_vmf(bands, concentrations[i], lambda);
             CHECK_WITHIN(check_error((size_t)bands, expected, lambda), 1e-7);
         }
     }
@@ -73,13 +73,13 @@ static void vmf_does_not_depend_on_the_number_of_bands(void **state) {
 static void becomes_a_dirac_as_it_sharpens(void **state) {
     (void)state;
     float lambda[LMP_BANDS_MAX];
-    lmp_lobe_phong(LMP_BANDS_MAX, FLT_MAX, lambda);
+    lmp_lobe_make_phong(LMP_BANDS_MAX, FLT_MAX, lambda);
     for (int l = 0; l < LMP_BANDS_MAX; l++)
         CHECK_WITHIN(fabsf(lambda[l] - 1), 1e-6);
-    lmp_lobe_vmf(LMP_BANDS_MAX, FLT_MAX, lambda);
+    lmp_lobe_make_vmf(LMP_BANDS_MAX, FLT_MAX, lambda);
     for (int l = 0; l < LMP_BANDS_MAX; l++)
         CHECK_WITHIN(fabsf(lambda[l] - 1), 1e-6);
-    lmp_lobe_vmf(LMP_BANDS_MAX, FLT_MIN, lambda);
+    lmp_lobe_make_vmf(LMP_BANDS_MAX, FLT_MIN, lambda);
     for (int l = 1; l < LMP_BANDS_MAX; l++)
         CHECK_WITHIN(fabsf(lambda[l]), 1e-6);
 }
@@ -90,7 +90,7 @@ static void projects_as_its_factors_times_the_harmonics(void **state) {
     double y[100];
     const lmp_vec3 axis = check_random_direction();
     const double w[3] = { (double)axis.x, (double)axis.y, (double)axis.z };
-    lmp_lobe_phong(10, 7, lambda);
+    lmp_lobe_make_phong(10, 7, lambda);
     lmp_lobe_project(10, lambda, axis, sh);
     oracle_sh_eval(10, w, y);
     for (int l = 0; l < 10; l++)
@@ -133,7 +133,7 @@ static void answers_lights_as_the_dot_product_of_coefficients_does(void **state)
         const int bands = counts[i];
         for (int trial = 0; trial < 8; trial++) {
             const lmp_vec3 axis = check_random_direction();
-            lmp_lobe_phong(bands, (float)(trial * trial), lambda);
+            lmp_lobe_make_phong(bands, (float)(trial * trial), lambda);
             lmp_lobe_project(bands, lambda, axis, lobe);
             lmp_light_project(bands, lights, LIGHT_COUNT, point, sh);
             const lmp_rgb response =
@@ -150,7 +150,7 @@ static void answers_lights_as_the_dot_product_of_coefficients_does(void **state)
 static void answers_no_lights_with_nothing(void **state) {
     (void)state;
     float lambda[5];
-    lmp_lobe_diffuse(5, lambda);
+    lmp_lobe_make_diffuse(5, lambda);
     const lmp_rgb response =
         lmp_lobe_response(5, lambda, (lmp_vec3) { 0, 0, 1 }, NULL, 0, (lmp_vec3) { 0, 0, 0 });
     assert_true(response.r == 0 && response.g == 0 && response.b == 0);
@@ -170,7 +170,7 @@ static void diffuse_tends_to_the_irradiance_of_a_sphere(void **state) {
     } cases[] = { { 3, 6e-2 }, { 5, 2e-2 }, { 10, 3e-3 }, { 40, 6e-5 } };
     for (int i = 0; i < 4; i++) {
         float lambda[40];
-        lmp_lobe_diffuse(cases[i].bands, lambda);
+        lmp_lobe_make_diffuse(cases[i].bands, lambda);
         const lmp_rgb response = lmp_lobe_response(cases[i].bands, lambda, (lmp_vec3) { 0, 0, 1 },
                                                    &sphere, 1, (lmp_vec3) { 0, 0, 0 });
         CHECK_WITHIN(fabs((double)response.r / exact - 1), cases[i].bound);
@@ -178,7 +178,7 @@ static void diffuse_tends_to_the_irradiance_of_a_sphere(void **state) {
     }
 }
 
-/* Against a double sum, where float's rounding of q·w alone would cost 1e-3. */
+/* Compares with a double sum; float's rounding of q·w alone would cost 1e-3. */
 static void keeps_its_digits_where_a_sharp_lobe_points_at_a_far_light(void **state) {
     (void)state;
     double wide[LMP_BANDS_MAX], zonal[LMP_BANDS_MAX], p[LMP_BANDS_MAX];

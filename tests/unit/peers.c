@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What docs/migrating.md says of google/spherical-harmonics, sphericart, Ambisonics and splats, row
- * by row. tests/unit/peers_directx.c has DirectXMath. */
+/* The statements of docs/migrating.md about google/spherical-harmonics, sphericart, Ambisonics and
+ * splats, row by row. Those about DirectXMath are in peers_directx.c. */
 #include "tests/unit/peers.h"
 
 /* --- google/spherical-harmonics --------------------------------------------------------------- */
@@ -10,7 +10,7 @@ static lmp_vec3 direction_of(double phi, double theta) {
                         (float)cos(theta) };
 }
 
-/* EvalSH(l, m, phi, theta) of the angles around and from z; EvalSHSum. */
+/* Rows EvalSH(l, m, phi, theta), whose angles are around and from z, and EvalSHSum. */
 static void angles_are_a_direction(void **state) {
     (void)state;
     for (int i = 0; i < 100; i++) {
@@ -34,7 +34,7 @@ static float clamped_cosine(lmp_vec3 d, void *user) {
     return d.z > 0 ? d.z : 0;
 }
 
-/* ProjectFunction, of the lobe whose coefficients are known; RenderDiffuseIrradiance. */
+/* Rows ProjectFunction, of the lobe whose coefficients are known, and RenderDiffuseIrradiance. */
 static void projects_functions(void **state) {
     (void)state;
     const double expected[3] = { sqrt(ORACLE_PI) / 2, sqrt(ORACLE_PI / 3),
@@ -48,7 +48,7 @@ static void projects_functions(void **state) {
     CHECK_WITHIN(fabs((double)lmp_probe_irradiance(3, sh, up).r - ORACLE_PI), 1e-5);
 }
 
-/* ProjectEnvironment: column and row are phi and theta, z is up. */
+/* Row ProjectEnvironment: column and row are phi and theta, and z is up. */
 static void projects_environments(void **state) {
     (void)state;
     enum { WIDTH = 96, HEIGHT = 48 };
@@ -72,7 +72,7 @@ static void projects_environments(void **state) {
     CHECK_WITHIN(difference(sh, projected), 2e-3);
 }
 
-/* ProjectSparseSamples. */
+/* Row ProjectSparseSamples. */
 static void fits_sparse_samples(void **state) {
     (void)state;
     enum { SAMPLES = 40 };
@@ -88,11 +88,11 @@ static void fits_sparse_samples(void **state) {
                                   .count = SAMPLES };
     assert_int_equal(lmp_probe_fit(NULL, 3, 0, &samples, fitted), LMP_OK);
     CHECK_WITHIN(difference(sh, fitted), 1e-4);
-    samples.count = COUNT - 1; /* its bad arguments are a result, not an assertion */
+    samples.count = COUNT - 1; /* invalid arguments give a result, not an assertion */
     assert_int_equal(lmp_probe_fit(NULL, 3, 0, &samples, fitted), LMP_ERROR_ARGUMENT);
 }
 
-/* Rotation::Create and Apply. */
+/* Rows Rotation::Create and Apply. */
 static void rotates_functions(void **state) {
     (void)state;
     const lmp_quat q = check_random_rotation();
@@ -106,7 +106,7 @@ static void rotates_functions(void **state) {
         w[i] = matrix[3 * i] * (double)d.x + matrix[3 * i + 1] * (double)d.y +
                matrix[3 * i + 2] * (double)d.z;
     lmp_sh_eval(3, d, sh);
-    lmp_sh_rotation(3, q, matrices);
+    lmp_sh_make_rotation(3, q, matrices);
     lmp_sh_rotate(3, matrices, sh, rotated);
     published_basis((lmp_vec3) { (float)w[0], (float)w[1], (float)w[2] }, -1, expected);
     CHECK_WITHIN(check_error(COUNT, expected, rotated), 1e-6);
@@ -116,7 +116,7 @@ static void rotates_functions(void **state) {
 
 enum { BANDS = 8, VALUES = BANDS * BANDS };
 
-/* Y(v / |v|) of its spherical harmonics, times |v|^l of its solid ones. */
+/* Evaluates Y(v / |v|) for spherical harmonics, times |v|^l for solid ones. */
 static void harmonics_at(const double v[3], bool solid, double *sh) {
     const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     lmp_sh_eval_double(BANDS, (double[]) { v[0] / length, v[1] / length, v[2] / length }, sh);
@@ -125,8 +125,8 @@ static void harmonics_at(const double v[3], bool solid, double *sh) {
             sh[i] *= pow(length, l);
 }
 
-/* Differences of both, at v of any length, by the formulas of the page: of spherical harmonics the
- * derivatives over |v| and |v|²; of solid ones l Y w |v|^(l-1) more. */
+/* Compares differences of both, at v of any length, with the document's formulas: for spherical
+ * harmonics the derivatives over |v| and |v|²; for solid ones l Y w |v|^(l-1) more. */
 static void derivatives_are_divided_by_the_length(void **state) {
     (void)state;
     static double sh[VALUES], gradient[3 * VALUES], hessian[6 * VALUES], at[2][2][VALUES];
@@ -165,7 +165,7 @@ static void derivatives_are_divided_by_the_length(void **state) {
     }
 }
 
-/* Y's Laplacian on the sphere is -l (l+1) Y. */
+/* The Laplacian of Y on the sphere is -l (l+1) Y. */
 static void second_derivatives_add_up_to_the_laplacian(void **state) {
     (void)state;
     static double sh[VALUES], hessian[6 * VALUES];
@@ -181,7 +181,7 @@ static void second_derivatives_add_up_to_the_laplacian(void **state) {
 
 /* --- conventions ------------------------------------------------------------------------------ */
 
-/* Ambisonics: N3D's first channels are 1 and sqrt(3) of each axis, SN3D's 1 and each axis; x is
+/* In Ambisonics N3D's first channels are 1 and sqrt(3) of each axis, SN3D's 1 and each axis; x is
  * forward, y left, z up. */
 static void ambisonics_are_scaled_to_one(void **state) {
     (void)state;
@@ -198,7 +198,7 @@ static void ambisonics_are_scaled_to_one(void **state) {
     CHECK_WITHIN(check_error(4, sn3d, converted), 1e-6);
 }
 
-/* Each normalization to each, with each sign, and back. */
+/* Each normalization is converted to each, with each sign, and back. */
 static void every_convention_converts_to_every_other(void **state) {
     (void)state;
     for (int pair = 0; pair < 36; pair++) {

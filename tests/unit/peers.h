@@ -22,8 +22,8 @@ static inline void randomize(float *sh, int count) {
         sh[i] = (float)check_random_between(-1, 1);
 }
 
-/* Three bands as polynomials, Sloan's «Stupid Spherical Harmonics Tricks», A2; `sign` -1 is that of
- * Condon and Shortley, as there. */
+/* Evaluates three bands as polynomials, Sloan's «Stupid Spherical Harmonics Tricks», A2; `sign` -1
+ * is the sign of Condon and Shortley, as there. */
 static inline void published_basis(lmp_vec3 d, double sign, double basis[COUNT]) {
     const double x = (double)d.x, y = (double)d.y, z = (double)d.z;
     const double values[COUNT] = { 0.282094791773878,
@@ -46,8 +46,8 @@ static inline double published_sum(lmp_vec3 d, double sign, const float *sh) {
     return sum;
 }
 
-/* A cube map of one channel whose faces show the function of `sh` in directions that `direction`
- * gives for a face, a column and a row, both in -1 … 1. */
+/* Makes a cube map of one channel whose faces show the function of `sh` in the directions that
+ * `direction` gives for a face, a column and a row, both in -1 … 1. */
 enum { CUBE = 48 };
 typedef float cube_texels[6][CUBE][CUBE];
 typedef lmp_vec3 cube_direction(int face, float column, float row);
@@ -68,7 +68,7 @@ static inline lmp_cubemap cube_of(cube_direction *direction, double sign, const 
     return map;
 }
 
-/* What is left of a difference beside the largest coefficient. */
+/* Returns the difference relative to the largest coefficient. */
 static inline double difference(const float *a, const float *b) {
     double expected[COUNT];
     for (int i = 0; i < COUNT; i++)

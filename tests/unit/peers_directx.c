@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What docs/migrating.md says of DirectXMath, row by row, with the numbers that Microsoft and Sloan
- * publish. */
+/* The statements of docs/migrating.md about DirectXMath, row by row, with the numbers that
+ * Microsoft and Sloan publish. */
 #include "tests/unit/peers.h"
 
-/* XMSHEvalDirection. */
+/* Row XMSHEvalDirection. */
 static void evaluates_the_same_basis(void **state) {
     (void)state;
     for (int i = 0; i < 100; i++) {
@@ -16,7 +16,7 @@ static void evaluates_the_same_basis(void **state) {
     }
 }
 
-/* XMSHAdd and XMSHScale. */
+/* Rows XMSHAdd and XMSHScale. */
 static void adds_and_scales(void **state) {
     (void)state;
     float a[COUNT], b[COUNT], sum[COUNT];
@@ -30,7 +30,7 @@ static void adds_and_scales(void **state) {
         assert_true(sum[i] == 2.5f * a[i]);
 }
 
-/* XMSHDot of x + 2 and x + y: the integrals of x², 4 pi / 3, and of nothing else. */
+/* Row XMSHDot, of x + 2 and x + y: the integral of x² is 4 pi / 3, and the others vanish. */
 static void dots_are_integrals_of_products(void **state) {
     (void)state;
     const float y0 = 2 * sqrtf((float)ORACLE_PI), y1 = sqrtf(4 * (float)ORACLE_PI / 3);
@@ -38,7 +38,8 @@ static void dots_are_integrals_of_products(void **state) {
     CHECK_WITHIN(fabs((double)lmp_sh_dot(3, a, b) - 4 * ORACLE_PI / 3), 1e-6);
 }
 
-/* XMSHMultiply2 … 6: z² is 1/3 + 2/3 P_2, and as many bands as fit a product give its values. */
+/* Rows XMSHMultiply2 … 6: z² is 1/3 + 2/3 P_2, and as many bands as fit a product give its values.
+ */
 static void multiplies_functions(void **state) {
     (void)state;
     const float z[4] = { 0, 0, sqrtf(4 * (float)ORACLE_PI / 3), 0 };
@@ -48,7 +49,7 @@ static void multiplies_functions(void **state) {
     memcpy(a, z, sizeof z);
     lmp_sh_multiply_few(3, a, a, c);
     CHECK_WITHIN(fabs((double)c[6] - 2 / 3.0 * sqrt(4 * ORACLE_PI / 5)), 1e-6);
-    for (int bands = 3; bands <= 6; bands++) { /* of (bands + 1) / 2 each */
+    for (int bands = 3; bands <= 6; bands++) { /* factors of (bands + 1) / 2 bands each */
         memset(a, 0, sizeof a);
         memset(b, 0, sizeof b);
         randomize(a, (bands + 1) / 2 * ((bands + 1) / 2));
@@ -64,8 +65,8 @@ static void multiplies_functions(void **state) {
     }
 }
 
-/* XMSHRotate by a matrix of row vectors, here of 90° around x as XMMatrixRotationX documents it: up
- * goes to z. XMSHRotateZ. */
+/* Rows XMSHRotate, by a matrix of row vectors, here of 90° around x as XMMatrixRotationX documents
+ * it, which takes up to z; and XMSHRotateZ. */
 static void rotates_by_transposed_matrices(void **state) {
     (void)state;
     const float rows[9] = { 1, 0, 0, 0, 0, 1, 0, -1, 0 };
@@ -73,7 +74,7 @@ static void rotates_by_transposed_matrices(void **state) {
     float expected[COUNT];
     for (int i = 0; i < 9; i++)
         transposed[i] = rows[i % 3 * 3 + i / 3];
-    lmp_sh_rotation_from_matrix(3, transposed, matrices);
+    lmp_sh_make_rotation_from_matrix(3, transposed, matrices);
     lmp_sh_eval(3, up, sh);
     lmp_sh_rotate(3, matrices, sh, rotated);
     lmp_sh_eval(3, (lmp_vec3) { 0, 0, 1 }, expected);
@@ -84,7 +85,7 @@ static void rotates_by_transposed_matrices(void **state) {
     CHECK_WITHIN(difference(expected, rotated), 1e-6);
 }
 
-/* SHProjectCubeMap, whose directions are these: as they are in Direct3D's world, or with z negated
+/* Row SHProjectCubeMap, with these directions: as they are in Direct3D's world, or with z negated
  * for a right-handed one. */
 static lmp_vec3 direct3d(int face, float u, float v) {
     const lmp_vec3 directions[6] = { { 1, -v, -u }, { -1, -v, u }, { u, 1, v },
@@ -106,8 +107,8 @@ static void projects_cube_maps(void **state) {
     CHECK_WITHIN(difference(converted, projected), 1e-3);
 }
 
-/* XMSHEvalDirectionalLight: a facing white wall reflects the color. The factors are 4 pi, 4 pi / 3,
- * 16 pi / 17 (Sloan) and 32 pi / 31; odd bands past the second add nothing. */
+/* Row XMSHEvalDirectionalLight: a facing white wall reflects the color. The factors are 4 pi, 4 pi
+ * / 3, 16 pi / 17 (Sloan) and 32 pi / 31; odd bands past the second add nothing. */
 static void normalizes_directional_lights(void **state) {
     (void)state;
     const double published[] = { 4.0, 4 / 3.0, 16 / 17.0, 16 / 17.0, 32 / 31.0, 32 / 31.0 };
@@ -120,7 +121,7 @@ static void normalizes_directional_lights(void **state) {
     }
 }
 
-/* XMSHEvalSphericalLight: Sloan's closed forms of the zonal coefficients. */
+/* Row XMSHEvalSphericalLight: Sloan's closed forms of the zonal coefficients. */
 static void spherical_lights_have_sloans_coefficients(void **state) {
     (void)state;
     for (double sine = 0.1; sine < 1; sine += 0.2) {
@@ -155,13 +156,13 @@ static void spheres_around_a_point_are_hemispheres_there(void **state) {
     CHECK_WITHIN(fabs((double)sh[0] - 2 * root), 1e-6);
 }
 
-/* XMSHEvalConeLight: its irradiance is its color times pi, with the radiance color / sin². */
+/* Row XMSHEvalConeLight: its irradiance is its color times pi, with the radiance color / sin². */
 static void cones_bring_pi(void **state) {
     (void)state;
     enum { BANDS = 64 };
     static float sh[3 * BANDS * BANDS];
     for (float angle = 0.2f; angle < 1.5f; angle += 0.2f) {
-        const float radiance = lmp_cap_radiance_from_irradiance((float)ORACLE_PI, angle);
+        const float radiance = lmp_light_cap_radiance_from_irradiance((float)ORACLE_PI, angle);
         CHECK_WITHIN(fabs((double)radiance * pow(sin((double)angle), 2) - 1), 1e-5);
         const lmp_light cone = { .kind = LMP_LIGHT_CAP,
                                  .direction = up,
@@ -172,14 +173,14 @@ static void cones_bring_pi(void **state) {
     }
 }
 
-/* XMSHEvalHemisphereLight: 3/2 of a gradient from the bottom color to the top one. */
+/* Row XMSHEvalHemisphereLight: 3/2 of a gradient from the bottom color to the top one. */
 static void hemispheres_are_a_gradient(void **state) {
     (void)state;
     const double top = 3, bottom = 0.5, root = sqrt(ORACLE_PI);
     const float zonal[3] = { (float)(1.5 * root * (top + bottom)),
                              (float)(1.5 * root / sqrt(3) * (top - bottom)), 0 };
     float sh[COUNT];
-    lmp_sh_from_zonal(3, zonal, up, sh);
+    lmp_sh_expand_zonal(3, zonal, up, sh);
     CHECK_WITHIN(fabs((double)lmp_sh_reconstruct(3, sh, up) - 1.5 * top), 1e-5);
     CHECK_WITHIN(fabs((double)lmp_sh_reconstruct(3, sh, down) - 1.5 * bottom), 1e-5);
     CHECK_WITHIN(

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What docs/migrating-engines.md says, row by row, with the numbers that the engines publish. */
+/* The statements of docs/migrating-engines.md, row by row, with the numbers that the engines
+ * publish. */
 #include "tests/unit/peers.h"
 
 static const lmp_probe_convention positive = { .sign = LMP_PROBE_SIGN_POSITIVE };
 
 /* --- three.js --------------------------------------------------------------------------------- */
 
-/* getBasisAt, getAt. */
+/* Rows getBasisAt and getAt. */
 static void three_js_has_the_positive_sign(void **state) {
     (void)state;
     for (int i = 0; i < 100; i++) {
@@ -24,7 +25,7 @@ static void three_js_has_the_positive_sign(void **state) {
     }
 }
 
-/* Irradiance as three.js and Godot write it, of coefficients of positive sign: 0.886227,
+/* Returns irradiance as three.js and Godot write it, from coefficients of positive sign: 0.886227,
  * 2 * 0.511664, 2 * 0.429043, 0.743125, 0.247708. */
 static double published_irradiance(lmp_vec3 n, const float *sh) {
     const double x = (double)n.x, y = (double)n.y, z = (double)n.z;
@@ -43,7 +44,7 @@ static double published_irradiance(lmp_vec3 n, const float *sh) {
     return sum;
 }
 
-/* getIrradianceAt; and Godot's shaders, whose probes are over pi. */
+/* Row getIrradianceAt; and Godot's shaders, whose probes are divided by pi. */
 static void three_js_and_godot_find_the_same_irradiance(void **state) {
     (void)state;
     for (int i = 0; i < 100; i++) {
@@ -58,7 +59,7 @@ static void three_js_and_godot_find_the_same_irradiance(void **state) {
     }
 }
 
-/* lerp, addScaledSH. */
+/* Rows lerp and addScaledSH. */
 static void three_js_interpolates(void **state) {
     (void)state;
     float a[COUNT], b[COUNT], sh[COUNT];
@@ -72,14 +73,14 @@ static void three_js_interpolates(void **state) {
         CHECK_WITHIN(fabsf(a[i] - 3 * b[i] - (sh[i] - 0.25f * b[i]) / 0.75f), 1e-5);
 }
 
-/* AmbientLightProbe: 2 sqrt(pi) of the color. HemisphereLightProbe: sqrt(pi) (sky + ground),
- * sqrt(3 pi / 4) (sky - ground) of y. */
+/* Rows AmbientLightProbe, 2 sqrt(pi) times the color, and HemisphereLightProbe, sqrt(pi) (sky +
+ * ground) and sqrt(3 pi / 4) (sky - ground) for y. */
 static void three_js_probes_have_these_irradiances(void **state) {
     (void)state;
     const float sky = 3, ground = 0.5f, c0 = (float)sqrt(ORACLE_PI), c1 = c0 * sqrtf(0.75f);
     const float zonal[3] = { c0 * (sky + ground), c1 * (sky - ground), 0 };
     float sh[3 * COUNT] = { 0 }, theirs[COUNT];
-    lmp_sh_from_zonal(3, zonal, up, sh);
+    lmp_sh_expand_zonal(3, zonal, up, sh);
     lmp_probe_convert(3, &ours, &positive, sh, theirs);
     CHECK_WITHIN(fabs((double)theirs[0] - (double)zonal[0]), 1e-6);
     CHECK_WITHIN(fabs((double)theirs[1] - (double)zonal[1]), 1e-6);
@@ -91,7 +92,7 @@ static void three_js_probes_have_these_irradiances(void **state) {
     CHECK_WITHIN(fabs((double)lmp_sh_reconstruct(3, sh, up) - (double)sky), 1e-6);
 }
 
-/* LightProbeGenerator.fromCubeTexture. */
+/* Row LightProbeGenerator.fromCubeTexture. */
 static lmp_vec3 three_js_cube(int face, float column, float v) {
     const float row = -v;
     const lmp_vec3 directions[6] = { { -1, row, -column }, { 1, row, column },
@@ -113,7 +114,7 @@ static void three_js_mirrors_cube_textures(void **state) {
 
 /* --- panoramas -------------------------------------------------------------------------------- */
 
-/* The texel that direction d is looked up in, and coefficients of that texel alone. */
+/* Finds the texel that direction d is looked up in, and the coefficients of that texel alone. */
 enum { WIDTH = 64, HEIGHT = 32 };
 static double panorama_error(double u, double v, lmp_vec3 d, lmp_latlong map) {
     static float texels[HEIGHT][WIDTH];
@@ -132,7 +133,7 @@ static double panorama_error(double u, double v, lmp_vec3 d, lmp_latlong map) {
     return check_error(COUNT, expected, sh);
 }
 
-/* An equirectangular texture of three.js, and a panorama of Godot. */
+/* The images are an equirectangular texture of three.js, and a panorama of Godot. */
 static void panoramas_show_what_engines_see(void **state) {
     (void)state;
     for (int i = 0; i < 50; i++) {
@@ -148,12 +149,12 @@ static void panoramas_show_what_engines_see(void **state) {
 
 /* --- Unity and Filament ----------------------------------------------------------------------- */
 
-/* Factors of IndirectLight.h's table, and of Unity's SphericalHarmonicMath. */
+/* The factors of IndirectLight.h's table, and of Unity's SphericalHarmonicMath. */
 static const double published_factors[COUNT] = { 0.282095,  -0.325735, 0.325735,
                                                  -0.325735, 0.273137,  -0.273137,
                                                  0.078848,  -0.273137, 0.136569 };
 
-/* The nine values of a channel (docs/migrating-engines.md). */
+/* Finds the nine values of a channel (docs/migrating-engines.md). */
 static void nine_values(const lmp_probe_constants *k, int c, float nine[COUNT]) {
     const float *a = k->linear[c], *b = k->quadratic[c];
     const float values[COUNT] = { a[3] + b[2] / 3, a[1], a[2],      a[0], b[0], b[1],
@@ -161,13 +162,14 @@ static void nine_values(const lmp_probe_constants *k, int c, float nine[COUNT]) 
     memcpy(nine, values, sizeof values);
 }
 
-/* Builder::irradiance and SphericalHarmonicsL2; unity_SHAr … are a[3], a[1], a[2], a[0] - a[6] … */
+/* Rows Builder::irradiance and SphericalHarmonicsL2; unity_SHAr … are a[3], a[1], a[2], a[0] - a[6]
+ * … */
 static void unity_and_filament_keep_the_polynomial(void **state) {
     (void)state;
     float sh[3 * COUNT], nine[COUNT];
     lmp_probe_constants k;
     randomize(sh, 3 * COUNT);
-    lmp_probe_constants_of(3, (float)(1 / ORACLE_PI), sh, &k);
+    lmp_probe_make_constants(3, (float)(1 / ORACLE_PI), sh, &k);
     for (int c = 0; c < 3; c++) {
         double expected[COUNT];
         for (int i = 0; i < COUNT; i++)
@@ -186,7 +188,7 @@ static void unity_and_filament_keep_the_polynomial(void **state) {
     CHECK_WITHIN(fabs((double)lmp_probe_irradiance(3, sh, n).b / ORACLE_PI - sum), 1e-5);
 }
 
-/* getDirectionEstimate of one light. AddAmbientLight and AddDirectionalLight, the second of 3 bands
+/* Rows getDirectionEstimate, of one light; AddAmbientLight; and AddDirectionalLight, of 3 bands
  * times 16 pi / 17: what a facing white wall reflects is the sum of both colors. */
 static void unity_and_filament_lights_are_known(void **state) {
     (void)state;
@@ -204,21 +206,21 @@ static void unity_and_filament_lights_are_known(void **state) {
     CHECK_WITHIN(fabs((double)lmp_probe_irradiance(3, sh, d).r / ORACLE_PI - 1), 1e-5);
 }
 
-/* CubemapSH::computeSH with irradiance, and cmgen's window. */
+/* Rows CubemapSH::computeSH with irradiance, and cmgen's window. */
 static void filament_bakes_irradiance_that_is_not_negative(void **state) {
     (void)state;
     const lmp_vec3 d = check_random_direction();
     float sh[3 * COUNT] = { 0 }, lambda[3], baked[COUNT], weights[3];
     lmp_sh_eval(3, d, sh);
-    lmp_lobe_diffuse(3, lambda);
-    lmp_sh_window_apply(3, lambda, sh, baked);
+    lmp_lobe_make_diffuse(3, lambda);
+    lmp_sh_apply_window(3, lambda, sh, baked);
     const lmp_vec3 n = check_random_direction();
     CHECK_WITHIN(
         fabs((double)lmp_probe_irradiance(3, sh, n).r - (double)lmp_sh_reconstruct(3, baked, n)),
         1e-5);
     assert_true(lmp_probe_minimum(3, sh) < -0.05f);
-    lmp_probe_window_positive(3, sh, 1, weights);
-    lmp_sh_window_apply(3, weights, sh, sh);
+    lmp_probe_make_positive_window(3, sh, 1, weights);
+    lmp_sh_apply_window(3, weights, sh, sh);
     CHECK_WITHIN(fabsf(lmp_probe_minimum(3, sh)), 1e-5);
 }
 
@@ -235,8 +237,8 @@ static void unity_worlds_are_left_handed(void **state) {
 
 /* --- Unreal ----------------------------------------------------------------------------------- */
 
-/* SHBasisFunction, DotSH3 and CalcDiffuseTransferSH3 of exponent 1, whose factors are pi, 2 pi / 3
- * and pi / 4; ConstantBasisIntegral. x is forward, y right, z up. */
+/* Rows SHBasisFunction, DotSH3 and CalcDiffuseTransferSH3 of exponent 1, whose factors are pi, 2 pi
+ * / 3 and pi / 4, and ConstantBasisIntegral. x is forward, y right, z up. */
 static void unreal_has_other_axes_and_the_same_basis(void **state) {
     (void)state;
     const lmp_probe_convention unreal = { .axes = { -3, 1, 2 } };
@@ -254,7 +256,7 @@ static void unreal_has_other_axes_and_the_same_basis(void **state) {
             basis[i] *= factors[l];
             irradiance += basis[i] * expected[i];
         }
-    lmp_lobe_diffuse(3, lambda);
+    lmp_lobe_make_diffuse(3, lambda);
     lmp_lobe_project(3, lambda, (lmp_vec3) { -n.z, n.x, n.y }, transfer);
     CHECK_WITHIN(check_error(COUNT, basis, transfer), 1e-6);
     CHECK_WITHIN(fabs((double)lmp_sh_dot(3, theirs, transfer) - irradiance), 1e-5);

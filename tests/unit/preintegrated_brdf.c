@@ -23,7 +23,7 @@ static float largest_of(lmp_rgb c) {
     return fmaxf(c.r, fmaxf(c.g, c.b));
 }
 
-/* The largest value of all views, at the mirror direction. */
+/* Returns the largest value of all views, at the mirror direction. */
 static float peak_of_views(const lmp_brdf_table *table, float radius) {
     float peak = 0;
     for (int i = 0; i < 16; i++) {
@@ -55,7 +55,7 @@ static void compare(const lmp_brdf_table *table, const lmp_preintegrated_brdf *p
     }
 }
 
-/* Prints and returns them. */
+/* Measures the errors, prints and returns them. */
 static check_errors errors_of(const char *what, const lmp_brdf_table *table, int probes) {
     lmp_preintegrated_brdf *preintegrated = created(table, 0);
     const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(preintegrated);
@@ -77,8 +77,8 @@ static void check_probes(const char *what, const lmp_brdf_table *table, int prob
     CHECK_WITHIN(check_errors_rms(&errors), 5e-4);
 }
 
-/* LAMPION_MATERIAL_BANDS: other bands than 10, of tables with the rings that they ask for; prints
- * alone, for docs/preintegration-notes.md. */
+/* LAMPION_MATERIAL_BANDS chooses other bands than 10, for tables with the rings that these need,
+ * and only prints, for docs/preintegration-notes.md. */
 static void ten_materials_match_their_sums_within_the_error(void **state) {
     (void)state;
     const char *const more = getenv("LAMPION_MATERIAL_BANDS");
@@ -121,8 +121,8 @@ static void more_bands_and_no_window_match_as_well(void **state) {
     }
 }
 
-/* A lobe that 128 rings resolve, of steel's shadowing, which takes all light away between 80 and 87
- * degrees of view. */
+/* The lobe is one that 128 rings resolve, with steel's shadowing, which removes all light between
+ * 80 and 87 degrees of view. */
 static void a_sharp_lobe_that_fades_near_grazing_matches_as_well(void **state) {
     (void)state;
     const lmp_brdf_table_desc desc = { .bands = check_count(48, 100),
@@ -130,7 +130,7 @@ static void a_sharp_lobe_that_fades_near_grazing_matches_as_well(void **state) {
                                        .rings_max = 128 };
     lmp_sgd sgd;
     lmp_brdf *brdf;
-    assert_int_equal(lmp_sgd_find("steel", &sgd), LMP_OK);
+    assert_int_equal(lmp_brdf_find_sgd("steel", &sgd), LMP_OK);
     for (int c = 0; c < 3; c++) {
         sgd.alpha[c] = 1e-3;
         sgd.p[c] = 0;
@@ -201,7 +201,7 @@ static lmp_vec3 random_point(double size) {
                         (float)check_random_between(-size, size) };
 }
 
-/* Lights of all kinds; some spheres hold some of the surfaces. */
+/* Scatters lights of all kinds; some spheres contain some of the surfaces. */
 static void scatter_lights(lmp_light *lights) {
     for (int i = 0; i < LIGHTS; i++)
         lights[i] = (lmp_light) { .kind = (lmp_light_kind)(i % 6),
@@ -215,8 +215,8 @@ static void scatter_lights(lmp_light *lights) {
                                   .ground = random_color() };
 }
 
-/* Lobes, two preintegrated tables and one that is not in no order; some views along the normal,
- * from below and level. */
+/* Makes surfaces of lobes, two preintegrated tables and one that is not preintegrated, mixed; some
+ * views lie along the normal, from below and level. */
 static crowd *crowd_create(void) {
     crowd *c = calloc(1, sizeof *c);
     assert_non_null(c);
@@ -276,14 +276,15 @@ static void shade_crowd(const crowd *c, size_t count, float *rgb) {
         .material_stride = sizeof *c->materials,
     };
     const lmp_shade_settings settings = by_readings(c);
-    lmp_shade_n(&settings, &surfaces, count, c->lights, LIGHTS, 4 * sizeof *rgb, rgb);
+    lmp_shade_n(&settings, &surfaces, count, c->lights, LIGHTS,
+                (lmp_rgb_array) { rgb, 4 * sizeof *rgb });
 }
 
 static double dot3(lmp_vec3 a, lmp_vec3 b) {
     return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
 }
 
-/* In the frame whose z is the normal, x on the side of the view. */
+/* Rotates w into the frame whose z is the normal, with x on the side of the view. */
 static lmp_vec3 into_frame(const lmp_surface *s, lmp_vec3 w) {
     const lmp_vec3 n = s->normal;
     const double c = dot3(s->view, n);
@@ -296,7 +297,7 @@ static lmp_vec3 into_frame(const lmp_surface *s, lmp_vec3 w) {
                         (float)dot3(n, w) };
 }
 
-/* Straight from lmp_preintegrated_brdf_eval, light by light. */
+/* Reads lmp_preintegrated_brdf_eval light by light. */
 static lmp_rgb read_one(const lmp_preintegrated_brdf *preintegrated, const lmp_surface *s,
                         const lmp_light *lights) {
     const float cosine = (float)dot3(s->view, s->normal);
@@ -304,7 +305,7 @@ static lmp_rgb read_one(const lmp_preintegrated_brdf *preintegrated, const lmp_s
     double sum[3] = { 0, 0, 0 };
     for (int i = 0; i < LIGHTS; i++) {
         lmp_cap cap;
-        lmp_light_cap(&lights[i], s->position, &cap);
+        lmp_light_find_cap(&lights[i], s->position, &cap);
         const lmp_rgb value = lmp_preintegrated_brdf_eval(
             preintegrated, cosine, into_frame(s, cap.axis), cap.one_minus_cos);
         sum[0] += (double)(cap.strength.r * value.r + cap.ambient.r * all.r);
@@ -345,7 +346,7 @@ static void every_instruction_set_shades_the_same_bits(void **state) {
     static float first[4 * SURFACES], rgb[4 * SURFACES];
     crowd *c = crowd_create();
     for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
-        if (lmp_cpu_mask(flag) != flag)
+        if (lmp_cpu_limit(flag) != flag)
             continue;
         for (size_t count = 0; count <= SURFACES; count += count < 36 ? 1 : SURFACES - 36) {
             for (int i = 0; i < 4 * SURFACES; i++)
@@ -360,7 +361,7 @@ static void every_instruction_set_shades_the_same_bits(void **state) {
                     assert_true(rgb[i] > -7.5f && rgb[i] < -6.5f);
         }
     }
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
     crowd_free(c);
 }
 
@@ -375,5 +376,6 @@ int main(void) {
         cmocka_unit_test(every_instruction_set_shades_the_same_bits),
         cmocka_unit_test(a_larger_error_takes_less_memory),
     };
+    cmocka_set_test_filter(getenv("LAMPION_TEST"));
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* How preintegrated BRDFs are made, and the bytes that they are kept as. */
-#include "src/preintegrated/brdf_make.h"
+/* The making of preintegrated BRDFs, and their bytes. */
+#include "src/preintegrated/brdf.h"
+#include "src/preintegrated/brdf_thin.h"
 #include "tests/unit/damage.h"
 #include "tests/unit/preintegrated_brdfs.h"
 
@@ -18,7 +19,9 @@ static void *written(const lmp_preintegrated_brdf *preintegrated, size_t *size) 
     *size = lmp_preintegrated_brdf_size(preintegrated);
     void *bytes = malloc(*size);
     assert_non_null(bytes);
-    lmp_preintegrated_brdf_write(preintegrated, bytes);
+    assert_int_equal(lmp_preintegrated_brdf_write(preintegrated, *size - 1, bytes),
+                     LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_preintegrated_brdf_write(preintegrated, *size, bytes), LMP_OK);
     return bytes;
 }
 
@@ -34,7 +37,7 @@ static void tasks_in_any_order_give_the_same_bytes(void **state) {
     void *bytes = written(plain, &size), *other_bytes = written(other, &other_size);
     assert_int_equal(size, other_size);
     assert_memory_equal(bytes, other_bytes, size);
-    assert_memory_equal(bytes, "LMPS\r\n\x1a\n\1\0\0\0\5\0\0\0", 16); /* docs/formats.md */
+    assert_memory_equal(bytes, "LMPS\r\n\x1a\n\1\0\0\0\5\0\0\0", 16); /* as docs/formats.md says */
     free(bytes);
     free(other_bytes);
     lmp_preintegrated_brdf_destroy(plain);
@@ -99,7 +102,7 @@ static void bytes_read_back_are_the_same_brdf(void **state) {
     lmp_preintegrated_brdf *preintegrated = created(table, 0), *copy;
     size_t size, again_size;
     void *bytes = written(preintegrated, &size);
-    assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &copy), LMP_OK);
+    assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, NULL, &copy), LMP_OK);
     void *again = written(copy, &again_size);
     assert_int_equal(size, again_size);
     assert_memory_equal(bytes, again, size);
@@ -120,7 +123,9 @@ static void bytes_read_back_are_the_same_brdf(void **state) {
 
 static lmp_result read_and_use(const unsigned char *bytes, size_t size) {
     lmp_preintegrated_brdf *copy;
-    const lmp_result result = lmp_preintegrated_brdf_read(NULL, bytes, size, &copy);
+    lmp_parse_error error = { size + 1, "" };
+    const lmp_result result = lmp_preintegrated_brdf_read(NULL, bytes, size, &error, &copy);
+    assert_true(result == LMP_OK || (error.text[0] && error.offset <= size));
     assert_int_equal(result == LMP_OK, copy != NULL);
     for (int k = 0; copy && k < 20; k++) {
         const probe p = random_probe(-3, 0);
@@ -146,9 +151,9 @@ static void damaged_bytes_are_refused(void **state) {
     free(bytes);
 }
 
-/* A file of the very size that its steps ask for, but more of them than a reader has room for, or
- * fewer nodes than it interpolates between: the numbers at 48 … 63 are views, caps, and the steps
- * of either. */
+/* The size agrees with the steps, but there are more of them than a reader has room for, or fewer
+ * nodes than it interpolates between: the numbers at 48 … 63 are views, caps, and the steps of
+ * either. */
 static void counts_out_of_range_are_refused_though_the_size_agrees(void **state) {
     (void)state;
     lmp_brdf_table *table = small_table();
@@ -173,8 +178,8 @@ static void counts_out_of_range_are_refused_though_the_size_agrees(void **state)
             assert_non_null(other);
             memcpy(other, bytes, asked < size ? asked : size);
             for (size_t c = 0; c < 4; c++) {
-                assert_int_equal(lmp_bytes_at_u32(bytes + 48 + 4 * c), counts[c]);
-                lmp_bytes_store_u32(other + 48 + 4 * c, now[c]);
+                assert_int_equal(lmpi_bytes_at_u32(bytes + 48 + 4 * c), counts[c]);
+                lmpi_bytes_store_u32(other + 48 + 4 * c, now[c]);
             }
             /* remaps that rise to their last slice, and all that follows */
             if (i >= 2 && now[i] > counts[i]) {
@@ -183,21 +188,20 @@ static void counts_out_of_range_are_refused_though_the_size_agrees(void **state)
                 unsigned char *p = other + 68;
                 for (size_t r = 0; r < 2; r++)
                     for (uint32_t step = 0; step <= now[2 + r]; step++)
-                        p = lmp_bytes_store_f32(p, (float)step / (float)now[2 + r] *
-                                                       (float)(counts[r] - 1));
+                        p = lmpi_bytes_store_f32(p, (float)step / (float)now[2 + r] *
+                                                        (float)(counts[r] - 1));
             }
             damage_sign(other, asked);
             lmp_preintegrated_brdf *read;
-            assert_int_equal(lmp_preintegrated_brdf_read(NULL, other, asked, &read),
+            assert_int_equal(lmp_preintegrated_brdf_read(NULL, other, asked, NULL, &read),
                              LMP_ERROR_FORMAT);
             free(other);
         }
     free(bytes);
 }
 
-/* What a file's numbers are held to: positive, finite, and of what a slice may be no more than 1e9.
- * The window's size is at 20, six numbers follow it, and the first slice's are behind the ambient
- * light. */
+/* A file's numbers must be positive, finite, and those of slices at most 1e9. The window's size is
+ * at 20, six numbers follow it, and the first slice's are behind the ambient light. */
 static void numbers_out_of_range_are_refused(void **state) {
     (void)state;
     lmp_brdf_table *table = small_table();
@@ -212,20 +216,20 @@ static void numbers_out_of_range_are_refused(void **state) {
     lmp_preintegrated_brdf *read;
     for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++)
         for (int k = 0; k < (i ? 5 : 4); k++) {
-            const float was = lmp_bytes_at_f32(bytes + offsets[i]);
+            const float was = lmpi_bytes_at_f32(bytes + offsets[i]);
             assert_true(was > 0);
-            lmp_bytes_store_f32(bytes + offsets[i], wrong[k]);
+            lmpi_bytes_store_f32(bytes + offsets[i], wrong[k]);
             damage_sign(bytes, size);
-            assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &read),
+            assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, NULL, &read),
                              LMP_ERROR_FORMAT);
-            lmp_bytes_store_f32(bytes + offsets[i], was);
+            lmpi_bytes_store_f32(bytes + offsets[i], was);
         }
     free(bytes);
     lmp_preintegrated_brdf_destroy(preintegrated);
     lmp_brdf_table_destroy(table);
 }
 
-/* The least that a file may have: two views and two caps, one step of either remap between them,
+/* Makes the smallest possible file: two views and two caps, one step of either remap between them,
  * and slices of 4 x 4 texels. `origin` is that of their rows. */
 static unsigned char *least_bytes(const unsigned char *header, float origin, size_t *size) {
     const uint32_t counts[] = { 2, 2, 1, 1, 4 * 16 };
@@ -234,14 +238,14 @@ static unsigned char *least_bytes(const unsigned char *header, float origin, siz
     assert_non_null(bytes);
     memcpy(bytes, header, 48);
     for (int i = 0; i < 5; i++)
-        p = lmp_bytes_store_u32(p, counts[i]);
+        p = lmpi_bytes_store_u32(p, counts[i]);
     for (int i = 0; i < 4; i++)
-        p = lmp_bytes_store_f32(p, (float)(i % 2));
+        p = lmpi_bytes_store_f32(p, (float)(i % 2));
     p += 12 * 2;
     for (int i = 0; i < 4; i++) {
-        p = lmp_bytes_store_u32(lmp_bytes_store_u32(p, 4), 4);
-        p = lmp_bytes_store_f32(lmp_bytes_store_f32(p, 1), origin);
-        p = lmp_bytes_store_f32(lmp_bytes_store_f32(p, 1), 1);
+        p = lmpi_bytes_store_u32(lmpi_bytes_store_u32(p, 4), 4);
+        p = lmpi_bytes_store_f32(lmpi_bytes_store_f32(p, 1), origin);
+        p = lmpi_bytes_store_f32(lmpi_bytes_store_f32(p, 1), 1);
     }
     damage_sign(bytes, *size);
     return bytes;
@@ -286,13 +290,13 @@ static void ends_of_a_remap_are_its_end_nodes(void **state) {
         unsigned char *node = bytes + 68 + (remap ? 4 * ((size_t)steps[0] + 1) : 0);
         assert_true(steps[remap] > 2);
         for (uint32_t i = 1; i < steps[remap]; i++) { /* nearer to the node before, in turn */
-            const float before = lmp_bytes_at_f32(node + 4 * (size_t)(i - 1));
-            const float here = lmp_bytes_at_f32(node + 4 * (size_t)i);
-            lmp_bytes_store_f32(node + 4 * (size_t)i,
-                                before + (i % 2 ? 0.4f : 0.8f) * (here - before));
+            const float before = lmpi_bytes_at_f32(node + 4 * (size_t)(i - 1));
+            const float here = lmpi_bytes_at_f32(node + 4 * (size_t)i);
+            lmpi_bytes_store_f32(node + 4 * (size_t)i,
+                                 before + (i % 2 ? 0.4f : 0.8f) * (here - before));
         }
         damage_sign(bytes, size);
-        assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &other), LMP_OK);
+        assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, NULL, &other), LMP_OK);
         for (int end = 0; end < 2; end++)
             for (int i = 0; i < 20; i++) {
                 const lmp_rgb a = at_an_end(preintegrated, remap, end, i),
@@ -307,8 +311,8 @@ static void ends_of_a_remap_are_its_end_nodes(void **state) {
     lmp_brdf_table_destroy(table);
 }
 
-/* Rows that vary slowly are kept by every other one: a cubic spline through a cosine of step h errs
- * by about h⁴/384 of it; one of fewer than two rows a wave is lost. */
+/* Slowly varying rows are kept by every other one: a cubic spline through a cosine of step h errs
+ * by about h⁴/384 of it; one of fewer than two rows per wave is lost. */
 static void smooth_rows_are_thinned_and_rough_ones_are_not(void **state) {
     (void)state;
     enum { ROWS = 129, COLUMNS = 5 };
@@ -323,10 +327,10 @@ static void smooth_rows_are_thinned_and_rough_ones_are_not(void **state) {
                     values[(c * ROWS + i) * COLUMNS + k] =
                         (float)((k + 1) * cos(frequency * i + 0.7 * k + c));
         const double error = COLUMNS * pow(2 * frequency, 4) / 384;
-        assert_true(lmp_preintegrated_brdf_rows_hold(&grid, 2, (float)(1.4 * error + 5e-6)));
-        assert_false(lmp_preintegrated_brdf_rows_hold(&grid, 2, (float)(0.8 * error)));
+        assert_true(lmpi_preintegrated_brdf_rows_hold(&grid, 2, (float)(1.4 * error + 5e-6)));
+        assert_false(lmpi_preintegrated_brdf_rows_hold(&grid, 2, (float)(0.8 * error)));
         values[(2 * ROWS + 63) * COLUMNS + 3] += 1; /* one row of one color counts */
-        assert_false(lmp_preintegrated_brdf_rows_hold(&grid, 2, 0.9f));
+        assert_false(lmpi_preintegrated_brdf_rows_hold(&grid, 2, 0.9f));
     }
 }
 

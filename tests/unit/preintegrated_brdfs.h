@@ -31,14 +31,13 @@ static inline lmp_preintegrated_brdf *created(const lmp_brdf_table *table, float
     return preintegrated;
 }
 
-/* A view, and a sphere of radiance 1 that looks r / 1 large: where a cap of a given size may lie.
- */
+/* A view, and a sphere of radiance 1 at distance 1: a cap of a given size. */
 typedef struct probe {
     double theta;
     float radius;
 } probe;
 
-/* A direction at g, p around the mirror direction, of the frame whose z is the normal. */
+/* Returns a direction at g, p around the mirror direction, in the frame whose z is the normal. */
 static inline lmp_vec3 around_mirror(const probe *p, double g, double azimuth) {
     const double x = sin(g) * cos(azimuth), y = sin(g) * sin(azimuth), z = cos(g);
     const double c = cos(p->theta), s = sin(p->theta);

@@ -17,7 +17,7 @@ static lmp_preintegrated_lobe *created(int bands, lmp_window window, float error
     return lobe;
 }
 
-/* One sphere seen from the origin, along z; and the same lobe by its series. */
+/* One sphere seen from the origin along z, and the same lobe as a series. */
 typedef struct probe {
     int bands;
     float exponent;
@@ -29,12 +29,12 @@ typedef struct probe {
 static probe probe_make(int bands, lmp_window window, float exponent, float radius) {
     probe p = { .bands = bands, .exponent = exponent };
     float weights[LMP_BANDS_MAX];
-    lmp_lobe_phong(bands, exponent, p.lambda);
-    lmp_sh_window(bands, window, 0, weights);
+    lmp_lobe_make_phong(bands, exponent, p.lambda);
+    lmp_sh_make_window(bands, window, 0, weights);
     for (int l = 0; l < bands; l++)
         p.lambda[l] *= weights[l];
     p.light = (lmp_light) { .position = { 0, 0, 1 }, .radius = radius, .radiance = { 1, 1, 1 } };
-    lmp_light_cap(&p.light, (lmp_vec3) { 0, 0, 0 }, &p.cap);
+    lmp_light_find_cap(&p.light, (lmp_vec3) { 0, 0, 0 }, &p.cap);
     return p;
 }
 
@@ -55,7 +55,7 @@ static float read(const lmp_preintegrated_lobe *lobe, const probe *p, float angl
            p->cap.ambient.r;
 }
 
-/* The largest value over all angles. */
+/* Returns the largest value over all angles. */
 static float peak(const probe *p) {
     const float near =
         asinf(fminf(p->light.radius, 1)) + 4 / sqrtf(p->exponent + 1) + 4 / (float)p->bands;
@@ -65,7 +65,7 @@ static float peak(const probe *p) {
     return largest;
 }
 
-/* Half of the angles anywhere on the sphere, half where the lobe is. */
+/* Compares at angles of which half lie anywhere on the sphere and half where the lobe is. */
 static void compare(const lmp_preintegrated_lobe *lobe, const probe *p, int angles,
                     check_errors *errors) {
     const float top = peak(p), near = asinf(fminf(p->light.radius, 1)) +
@@ -206,7 +206,8 @@ static void *written(const lmp_preintegrated_lobe *lobe, size_t *size) {
     *size = lmp_preintegrated_lobe_size(lobe);
     void *bytes = malloc(*size);
     assert_non_null(bytes);
-    lmp_preintegrated_lobe_write(lobe, bytes);
+    assert_int_equal(lmp_preintegrated_lobe_write(lobe, *size - 1, bytes), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_preintegrated_lobe_write(lobe, *size, bytes), LMP_OK);
     return bytes;
 }
 
@@ -258,8 +259,7 @@ static void its_bytes_are_those_of_its_parts(void **state) {
     }
 }
 
-/* A step follows the width of the lobes, or is the same for all of a cell: the other number is 0.
- */
+/* A step follows the width of the lobes, or is the same for a whole cell: the other number is 0. */
 static void steps_follow_the_width_or_nothing(void **state) {
     (void)state;
     int kinds[2] = { 0, 0 };
@@ -297,7 +297,7 @@ static void bytes_read_back_are_the_same_lobe(void **state) {
     lmp_preintegrated_lobe *lobe = created(9, LMP_WINDOW_HANNING, 0), *copy;
     size_t size;
     void *bytes = written(lobe, &size);
-    assert_int_equal(lmp_preintegrated_lobe_read(NULL, bytes, size, &copy), LMP_OK);
+    assert_int_equal(lmp_preintegrated_lobe_read(NULL, bytes, size, NULL, &copy), LMP_OK);
     const lmp_preintegrated_lobe_info a = lmp_preintegrated_lobe_describe(lobe),
                                       b = lmp_preintegrated_lobe_describe(copy);
     assert_int_equal(a.pair_count, b.pair_count);
@@ -316,7 +316,9 @@ static void bytes_read_back_are_the_same_lobe(void **state) {
 
 static lmp_result read_and_use(const unsigned char *bytes, size_t size) {
     lmp_preintegrated_lobe *copy;
-    const lmp_result result = lmp_preintegrated_lobe_read(NULL, bytes, size, &copy);
+    lmp_parse_error error = { size + 1, "" };
+    const lmp_result result = lmp_preintegrated_lobe_read(NULL, bytes, size, &error, &copy);
+    assert_true(result == LMP_OK || (error.text[0] && error.offset <= size));
     assert_int_equal(result == LMP_OK, copy != NULL);
     for (float e = 0; copy && e < INFINITY; e = 2 * e + 0.3f)
         (void)lmp_preintegrated_lobe_eval(copy, e, 1, -1);
@@ -337,7 +339,7 @@ static void damaged_bytes_are_refused(void **state) {
     free(bytes);
 }
 
-/* A number is read whole: no bit of the header goes unseen. */
+/* Numbers are read whole, so that every bit of the header matters. */
 static void every_bit_of_the_header_counts(void **state) {
     (void)state;
     lmp_preintegrated_lobe *lobe = created(3, LMP_WINDOW_HANNING, 0.1f), *copy;
@@ -346,7 +348,7 @@ static void every_bit_of_the_header_counts(void **state) {
     for (size_t bit = 8 * 8; bit < 8 * 32; bit++) {
         bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
         damage_sign(bytes, size);
-        if (lmp_preintegrated_lobe_read(NULL, bytes, size, &copy) == LMP_OK) {
+        if (lmp_preintegrated_lobe_read(NULL, bytes, size, NULL, &copy) == LMP_OK) {
             unsigned char *again = written(copy, &(size_t) { 0 });
             assert_memory_equal(bytes, again, size);
             free(again);
@@ -358,7 +360,7 @@ static void every_bit_of_the_header_counts(void **state) {
     lmp_preintegrated_lobe_destroy(lobe);
 }
 
-/* 841 cells of 1599 x 3194 pairs are 192950 more than 2^32: a file of the small number must not
+/* 841 cells of 1599 x 3194 pairs are 192950 more than 2^32: a file with the small number must not
  * pass for the large one. */
 static void cells_that_outgrow_their_count_are_refused(void **state) {
     (void)state;
@@ -374,13 +376,13 @@ static void cells_that_outgrow_their_count_are_refused(void **state) {
     unsigned char *bytes = calloc(size, 1), *p = bytes + 28;
     assert_non_null(bytes);
     memcpy(bytes, head, 28);
-    p = lmp_bytes_store_u32(p, CELLS);
+    p = lmpi_bytes_store_u32(p, CELLS);
     for (int i = 0; i < LMP_PREINTEGRATED_LOBE_REMAP_COUNT; i++)
-        p = lmp_bytes_store_f32(p, (float)(CELLS * i) / (LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1));
+        p = lmpi_bytes_store_f32(p, (float)(CELLS * i) / (LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1));
     for (int k = 0; k < CELLS; k++)
-        p = lmp_bytes_store_f32(lmp_bytes_store_f32(p, 0), 1015.42f);
+        p = lmpi_bytes_store_f32(lmpi_bytes_store_f32(p, 0), 1015.42f);
     damage_sign(bytes, size);
-    assert_int_equal(lmp_preintegrated_lobe_read(NULL, bytes, size, &copy), LMP_ERROR_FORMAT);
+    assert_int_equal(lmp_preintegrated_lobe_read(NULL, bytes, size, NULL, &copy), LMP_ERROR_FORMAT);
     assert_null(copy);
     free(bytes);
     free(head);

@@ -17,7 +17,7 @@ static void randomize(float *sh, int count) {
 
 /* --- irradiance ------------------------------------------------------------------------------- */
 
-/* A sphere above the horizon: pi L sin²a cos(theta) exactly. */
+/* The irradiance of a sphere above the horizon is pi L sin²a cos(theta), exactly. */
 static void irradiance_of_a_sphere_is_its_closed_form(void **state) {
     (void)state;
     enum { BANDS = 64 };
@@ -42,16 +42,16 @@ static void many_normals_give_the_same_bits_as_one(void **state) {
     randomize(sh, 3 * 36);
     for (int i = 0; i < 17; i++)
         normals[i] = check_random_direction();
-    lmp_probe_irradiance_n(6, sh, lmp_vec3_array_of(normals), 17, rgb);
+    lmp_probe_irradiance_n(6, sh, lmp_vec3_array_of(normals), 17, lmp_rgb_array_of(rgb));
     for (int i = 0; i < 17; i++) {
         const lmp_rgb one = lmp_probe_irradiance(6, sh, normals[i]);
         assert_memory_equal(&one, &rgb[i], sizeof one);
     }
-    lmp_probe_irradiance_n(6, sh, lmp_vec3_array_same(normals), 0, NULL);
+    lmp_probe_irradiance_n(6, sh, lmp_vec3_array_same(normals), 0, lmp_rgb_array_of(NULL));
 }
 
-/* The polynomial as published: Ramamoorthi and Hanrahan 2001, Eq. 13 and c1 … c5 below it, for a
- * basis without the Condon-Shortley sign. */
+/* Evaluates the polynomial as published: Ramamoorthi and Hanrahan 2001, Eq. 13 and c1 … c5 below
+ * it, for a basis without the Condon-Shortley sign. */
 static double published(const float *sh, const double n[3]) {
     double f[9];
     for (int k = 0; k < 9; k++)
@@ -70,7 +70,7 @@ static void constants_are_the_published_polynomial(void **state) {
     float sh[3 * 16];
     randomize(sh, 3 * 16);
     lmp_probe_constants k;
-    lmp_probe_constants_of(4, 1, sh, &k);
+    lmp_probe_make_constants(4, 1, sh, &k);
     assert_true(k.last[3] == 1);
     for (int i = 0; i < 50; i++) {
         const lmp_vec3 d = check_random_direction();
@@ -85,16 +85,16 @@ static void constants_are_the_published_polynomial(void **state) {
             CHECK_WITHIN(fabs(e - published(sh + 16 * c, n)), 2e-5);
         }
     }
-    lmp_probe_constants half;
-    lmp_probe_constants_of(4, 0.5f, sh, &half);
-    assert_true(half.linear[1][3] == k.linear[1][3] / 2);
-    assert_true(half.quadratic[2][1] == k.quadratic[2][1] / 2);
-    assert_true(half.last[0] == k.last[0] / 2 && half.last[3] == 1);
+    lmp_probe_constants scaled;
+    lmp_probe_make_constants(4, 0.5f, sh, &scaled);
+    assert_true(scaled.linear[1][3] == k.linear[1][3] / 2);
+    assert_true(scaled.quadratic[2][1] == k.quadratic[2][1] / 2);
+    assert_true(scaled.last[0] == k.last[0] / 2 && scaled.last[3] == 1);
 }
 
 /* --- conventions ------------------------------------------------------------------------------ */
 
-/* SphericalHarmonics3.getBasisAt of three.js, as its documentation prints it. */
+/* Evaluates SphericalHarmonics3.getBasisAt of three.js, as its documentation prints it. */
 static void three_js_basis(const double w[3], double basis[9]) {
     const double x = w[0], y = w[1], z = w[2];
     const double values[9] = { 0.282095,
@@ -109,7 +109,7 @@ static void three_js_basis(const double w[3], double basis[9]) {
     memcpy(basis, values, sizeof values);
 }
 
-/* AmbiX: ACN and SN3D with x forward, y left, z up; Y_1 is (y, z, x) itself. */
+/* Evaluates AmbiX: ACN and SN3D with x forward, y left, z up; Y_1 is (y, z, x) itself. */
 static void ambix_basis(const double w[3], double basis[9]) {
     const double x = w[0], y = w[1], z = w[2], root3 = sqrt(3);
     const double values[9] = { 1,
@@ -162,7 +162,7 @@ static void ambix_encodes_sources_in_its_own_axes(void **state) {
     }
 }
 
-/* All 48 frames, left-handed ones too, against the function itself at 10 bands. */
+/* All 48 frames, left-handed ones included, are compared with the function itself at 10 bands. */
 static void axes_may_be_any_of_48(void **state) {
     (void)state;
     enum { BANDS = 10, COUNT = BANDS * BANDS };
@@ -216,7 +216,7 @@ static void conventions_are_recognized(void **state) {
         }
 }
 
-/* Whatever is found converts: other signs are also a rotation by pi around z. */
+/* Whatever is found must convert: other signs are also a rotation by pi around z. */
 static void axes_are_recognized(void **state) {
     (void)state;
     static const signed char axes[][3] = {
@@ -249,7 +249,7 @@ typedef struct sampled {
     lmp_probe_samples samples;
 } sampled;
 
-/* `count` samples of a series of `bands` bands, all in the upper half if told so. */
+/* Makes `count` samples of a series of `bands` bands, all in the upper half if asked. */
 static void sample(sampled *s, int bands, const float *sh, int count, bool upper) {
     for (int i = 0; i < count; i++) {
         lmp_vec3 d = check_random_direction();
@@ -380,19 +380,19 @@ static void the_weakest_window_that_keeps_a_light_positive_is_found(void **state
         for (int p = 0; p < 3; p++)
             lmp_sphere_project(bands, (lmp_vec3) { 3, 2 + (float)p, 1 }, 0.2f,
                                (lmp_vec3) { 0, 0, 0 }, sh + (size_t)p * plane);
-        lmp_probe_window_positive(bands, sh, 3, weights);
+        lmp_probe_make_positive_window(bands, sh, 3, weights);
         assert_true(weights[0] == 1 && weights[bands - 1] < 1);
         bool below = false;
         for (int p = 0; p < 3; p++) {
             const float *f = sh + (size_t)p * plane;
             const double mean = (double)f[0] / sqrt(4 * ORACLE_PI);
-            lmp_sh_window_apply(bands, weights, f, windowed);
+            lmp_sh_apply_window(bands, weights, f, windowed);
             CHECK_WITHIN(-least_on_grid(bands, windowed), 0.01 * mean);
             for (int l = 0; l < bands; l++) /* a window a little weaker */
                 weights[l] = 1 / (1 + 0.95f * (1 / weights[l] - 1));
-            lmp_sh_window_apply(bands, weights, f, windowed);
+            lmp_sh_apply_window(bands, weights, f, windowed);
             below |= least_on_grid(bands, windowed) < 0;
-            lmp_probe_window_positive(bands, sh, 3, weights);
+            lmp_probe_make_positive_window(bands, sh, 3, weights);
         }
         assert_true(below);
     }
@@ -401,7 +401,7 @@ static void the_weakest_window_that_keeps_a_light_positive_is_found(void **state
 static void positive_and_dark_functions_are_left_alone(void **state) {
     (void)state;
     float sh[2][16] = { { 3, 0.1f, 0.1f, 0.1f, 0.1f }, { -1, 0.3f } }, weights[4];
-    lmp_probe_window_positive(4, sh[0], 2, weights);
+    lmp_probe_make_positive_window(4, sh[0], 2, weights);
     for (int l = 0; l < 4; l++)
         assert_true(weights[l] == 1);
 }

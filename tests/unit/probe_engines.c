@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Probes as game engines keep them, judged by what those engines' shaders make of them. */
+/* Probes as game engines keep them, evaluated as those engines' shaders do. */
 #include "tests/oracle/check.h"
 #include "tests/oracle/engines.h"
 
@@ -9,7 +9,7 @@
 
 enum { SPHERES = 200 };
 
-/* A sphere anywhere around a point, its probe of `bands` bands, and a normal. */
+/* A sphere around a random point, its probe of `bands` bands, and a normal. */
 typedef struct seen_sphere {
     lmp_light light;
     double distance, cosine, normal[3];
@@ -43,9 +43,9 @@ static void shaders_of_engines_find_the_irradiance_of_three_bands(void **state) 
         const int bands = 3 + k % 3;
         const seen_sphere seen = random_sphere(bands);
         const double r = (double)seen.light.radius, d = seen.distance;
-        for (int e = 0; e < LMP_PROBE_ENGINES; e++) {
+        for (int e = 0; e < LMP_PROBE_ENGINE_COUNT; e++) {
             float values[27];
-            lmp_probe_export(bands, lmp_probe_format_of((lmp_probe_engine)e), seen.sh, values);
+            lmp_probe_export(bands, lmp_probe_engine_format((lmp_probe_engine)e), seen.sh, values);
             for (int c = 0; c < 3; c++) {
                 const double factor = radiance(&seen.light, c) / ORACLE_PI;
                 const double peak = factor * sphere_irradiance(r, d, 1);
@@ -57,8 +57,8 @@ static void shaders_of_engines_find_the_irradiance_of_three_bands(void **state) 
     }
 }
 
-/* Three bands are within 7 % of the peak of a light however small, 1 % of one that fills half of
- * what is seen. */
+/* Three bands are within 7 % of the peak of a light, however small, and within 1 % of one that
+ * fills half of what is seen. */
 static void three_bands_are_near_the_exact_irradiance(void **state) {
     (void)state;
     int judged = 0;
@@ -69,9 +69,9 @@ static void three_bands_are_near_the_exact_irradiance(void **state) {
         const double peak = sphere_irradiance(r, d, 1) / ORACLE_PI;
         if (!(seen.cosine > r / d))
             continue;
-        for (int e = 0; e < LMP_PROBE_ENGINES; e++) {
+        for (int e = 0; e < LMP_PROBE_ENGINE_COUNT; e++) {
             float values[27];
-            lmp_probe_export(3, lmp_probe_format_of((lmp_probe_engine)e), seen.sh, values);
+            lmp_probe_export(3, lmp_probe_engine_format((lmp_probe_engine)e), seen.sh, values);
             const double found = engine_reflects((lmp_probe_engine)e, values, 0, seen.normal);
             CHECK_WITHIN(fabs(found / radiance(&seen.light, 0) - exact), 0.1 * peak);
         }
@@ -83,7 +83,7 @@ static void three_bands_are_near_the_exact_irradiance(void **state) {
 static void formats_can_be_changed(void **state) {
     (void)state;
     const seen_sphere seen = random_sphere(3);
-    lmp_probe_format format = *lmp_probe_format_of(LMP_PROBE_FILAMENT);
+    lmp_probe_format format = *lmp_probe_engine_format(LMP_PROBE_FILAMENT);
     float values[27], mirrored[27];
     lmp_probe_export(3, &format, seen.sh, values);
     memcpy(format.convention.axes, (signed char[]) { -1, 2, 3 }, 3);
@@ -94,14 +94,14 @@ static void formats_can_be_changed(void **state) {
                  1e-5);
 }
 
-/* What is written may lie right before or behind what is read. */
+/* What is written may be adjacent to what is read. */
 static void values_may_lie_beside_coefficients(void **state) {
     (void)state;
     const seen_sphere seen = random_sphere(3);
     float values[27], row[3 * 27];
     memcpy(row + 27, seen.sh, sizeof values);
-    for (int e = 0; e < LMP_PROBE_ENGINES; e++) {
-        const lmp_probe_format *format = lmp_probe_format_of((lmp_probe_engine)e);
+    for (int e = 0; e < LMP_PROBE_ENGINE_COUNT; e++) {
+        const lmp_probe_format *format = lmp_probe_engine_format((lmp_probe_engine)e);
         lmp_probe_export(3, format, seen.sh, values);
         lmp_probe_export(3, format, row + 27, row);
         lmp_probe_export(3, format, row + 27, row + 2 * 27);
@@ -112,9 +112,10 @@ static void values_may_lie_beside_coefficients(void **state) {
 
 static void formats_have_names_and_units(void **state) {
     (void)state;
-    static const char *const names[LMP_PROBE_ENGINES] = { "unity", "unreal", "godot", "filament" };
-    for (int e = 0; e < LMP_PROBE_ENGINES; e++) {
-        const lmp_probe_format *format = lmp_probe_format_of((lmp_probe_engine)e);
+    static const char *const names[LMP_PROBE_ENGINE_COUNT] = { "unity", "unreal", "godot",
+                                                               "filament" };
+    for (int e = 0; e < LMP_PROBE_ENGINE_COUNT; e++) {
+        const lmp_probe_format *format = lmp_probe_engine_format((lmp_probe_engine)e);
         assert_string_equal(format->name, names[e]);
         assert_true(format->unit == (e == LMP_PROBE_UNREAL ? 100 : 1));
     }

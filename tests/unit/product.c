@@ -24,7 +24,8 @@ static double pair_value(const double w[3], void *user) {
     return a * b;
 }
 
-/* Each row of a file is a, b and their product; NULL multiplies by the form for few bands. */
+/* Checks a vector file, whose rows hold a, b and their product; NULL means the form for few bands.
+ */
 static void check_vector_file(const char *name, int bands, const lmp_sh_product *product,
                               double bound) {
     enum { MOST = LMP_SH_COUNT(12) };

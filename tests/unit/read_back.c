@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The files that the library writes, taken apart by hand as docs/formats.md and their own
- * publications describe them, hold what was in memory. */
+/* The files that the library writes, parsed by hand as docs/formats.md and their own publications
+ * describe them, hold what was in memory. */
 #include "src/brdf/brdf.h"
 #include "tests/oracle/check.h"
 
@@ -63,7 +63,7 @@ static void expect_shorts(cursor *c, const int16_t *numbers, size_t count) {
         expect(c, 2, (uint16_t)numbers[i]);
 }
 
-/* The frame of the formats of our own: a magic number, a version, and CRC-32C of it all. */
+/* Opens a file in a format of our own: a magic number, a version, and CRC-32C over everything. */
 static cursor open_frame(const unsigned char *bytes, size_t size, const char *name) {
     cursor c = { bytes, 0, size };
     uint32_t crc = ~0u;
@@ -106,7 +106,7 @@ static void check_table(lmp_brdf_table *table, uint64_t azimuths, uint64_t mirro
     const size_t size = lmp_brdf_table_size(table), floats = 3 * count * 9 * azimuths;
     unsigned char *bytes = malloc(size);
     assert_non_null(bytes);
-    lmp_brdf_table_write(table, bytes);
+    lmp_brdf_table_write(table, lmp_brdf_table_size(table), bytes);
     cursor c = open_frame(bytes, size, "LMPT");
     const uint64_t shape[] = { 5, 9, azimuths, mirrored, 2 };
     for (size_t i = 0; i < sizeof shape / sizeof *shape; i++)
@@ -139,7 +139,7 @@ static void preintegrated_lobes_hold_their_cells(void **state) {
     const size_t size = lmp_preintegrated_lobe_size(lobe);
     unsigned char *bytes = malloc(size);
     assert_non_null(bytes);
-    lmp_preintegrated_lobe_write(lobe, bytes);
+    lmp_preintegrated_lobe_write(lobe, lmp_preintegrated_lobe_size(lobe), bytes);
     cursor c = open_frame(bytes, size, "LMPR");
     expect(&c, 4, 6);
     expect(&c, 4, 1);
@@ -176,7 +176,7 @@ static void preintegrated_brdfs_hold_their_slices(void **state) {
     const size_t size = lmp_preintegrated_brdf_size(brdf);
     unsigned char *bytes = malloc(size);
     assert_non_null(bytes);
-    lmp_preintegrated_brdf_write(brdf, bytes);
+    lmp_preintegrated_brdf_write(brdf, lmp_preintegrated_brdf_size(brdf), bytes);
     cursor c = open_frame(bytes, size, "LMPS");
     expect(&c, 4, 5);
     expect(&c, 2, 2);
@@ -213,17 +213,18 @@ static void rotate(const double axis[3], double angle, double v[3]) {
         v[i] = v[i] * c + axis[i] * along * (1 - c) + cross[i] * s;
 }
 
-/* The directions of a half angle and a difference (Rusinkiewicz 1998). */
+/* Finds the directions of a half angle and a difference (Rusinkiewicz 1998). */
 static void directions_of(double theta_h, double theta_d, double phi_d, double in[3],
                           double out[3]) {
-    const double y[3] = { 0, 1, 0 }, half[3] = { sin(theta_h), 0, cos(theta_h) };
+    const double y[3] = { 0, 1, 0 }, half_vector[3] = { sin(theta_h), 0, cos(theta_h) };
     in[0] = sin(theta_d) * cos(phi_d);
     in[1] = sin(theta_d) * sin(phi_d);
     in[2] = cos(theta_d);
     rotate(y, theta_h, in);
-    const double along = 2 * (in[0] * half[0] + in[1] * half[1] + in[2] * half[2]);
+    const double along =
+        2 * (in[0] * half_vector[0] + in[1] * half_vector[1] + in[2] * half_vector[2]);
     for (int i = 0; i < 3; i++)
-        out[i] = along * half[i] - in[i];
+        out[i] = along * half_vector[i] - in[i];
 }
 
 static void merl_files_hold_each_cell(void **state) {
@@ -233,7 +234,7 @@ static void merl_files_hold_each_cell(void **state) {
     lmp_brdf *brdf = create_ggx(0.4f, 0.4f);
     void *data;
     size_t size, compared = 0;
-    assert_int_equal(lmp_brdf_write_merl(NULL, brdf, &data, &size), LMP_OK);
+    assert_int_equal(lmp_brdf_encode_merl(NULL, brdf, &data, &size), LMP_OK);
     cursor c = { data, 0, size };
     expect(&c, 4, 90);
     expect(&c, 4, 90);
@@ -292,7 +293,7 @@ static field find_field(const void *data, size_t size, const char *wanted) {
     return (field) { .count = 0 };
 }
 
-/* The file's own floats against those of the object that is made of it. */
+/* Compares the file's own floats with those of the object made from it. */
 static void expect_field(const void *data, size_t size, const char *name, const float *numbers,
                          size_t count) {
     const field f = find_field(data, size, name);
@@ -306,7 +307,7 @@ static void check_tensor(float alpha_y, int phis, int thetas) {
     lmp_brdf *brdf = create_ggx(0.3f, alpha_y), *copy;
     void *data;
     size_t size;
-    assert_int_equal(lmp_brdf_write_rgl(NULL, brdf, &data, &size), LMP_OK);
+    assert_int_equal(lmp_brdf_encode_rgl(NULL, brdf, &data, &size), LMP_OK);
     assert_int_equal(lmp_brdf_read_rgl(NULL, data, size, NULL, &copy), LMP_OK);
     const brdf_rgl *rgl = &copy->rgl;
     expect_field(data, size, "theta_i", rgl->theta, (size_t)thetas);

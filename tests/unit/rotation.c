@@ -38,7 +38,7 @@ static void rotates_the_vector_file(void **state) {
             sh[k] = (float)in[k];
         for (int k = 0; k < 9; k++)
             matrix[k] = (float)rotation[k];
-        lmp_sh_rotation_from_matrix(8, matrix, matrices);
+        lmp_sh_make_rotation_from_matrix(8, matrix, matrices);
         lmp_sh_rotate(8, matrices, sh, rotated);
         CHECK_WITHIN(check_error(64, expected, rotated), 3e-6);
         for (int bands = 1; bands <= 8; bands++) {
@@ -49,7 +49,8 @@ static void rotates_the_vector_file(void **state) {
     check_csv_close(csv);
 }
 
-/* Peaks of 128 bands, by the double-precision basis, which unit.oracle holds to the vectors. */
+/* Compares peaks of 128 bands, by the double-precision basis, which unit.oracle checks against the
+ * vectors. */
 static void rotates_128_bands_as_the_vector_file_says(void **state) {
     (void)state;
     enum { COUNT = LMP_SH_COUNT(128) };
@@ -67,7 +68,7 @@ static void rotates_128_bands_as_the_vector_file_says(void **state) {
         oracle_sh_eval(128, p, peak);
         for (int k = 0; k < COUNT; k++)
             sh[k] = (float)peak[k];
-        lmp_sh_rotation(128, q, matrices);
+        lmp_sh_make_rotation(128, q, matrices);
         lmp_sh_rotate(128, matrices, sh, rotated);
         CHECK_WITHIN(check_error((size_t)(2 * l + 1), expected, rotated + l * l), 1e-6);
     }
@@ -88,12 +89,13 @@ static void matches_exact_quadrature_of_every_entry(void **state) {
     for (size_t i = 0; i < sizeof rotations / sizeof *rotations; i++) {
         matrix_of(rotations[i], rotation);
         oracle_rotation(7, rotation, expected);
-        lmp_sh_rotation(7, rotations[i], matrices);
+        lmp_sh_make_rotation(7, rotations[i], matrices);
         CHECK_WITHIN(check_error(LMP_SH_ROTATION_COUNT(7), expected, matrices), 2e-7);
     }
 }
 
-/* The matrices hold to float32 rounding; the bounds are those of sums of 2l+1 rounded products. */
+/* The matrices are correct to float32 rounding; the bounds are those of sums of 2l+1 rounded
+ * products. */
 static void takes_harmonics_to_the_rotated_direction_at_any_bands(void **state) {
     (void)state;
     const int counts[] = { 1, 2, 10, 30, 60, LMP_BANDS_MAX };
@@ -115,7 +117,7 @@ static void takes_harmonics_to_the_rotated_direction_at_any_bands(void **state) 
             oracle_sh_eval(bands, direction, after);
             for (size_t k = 0; k < LMP_SH_COUNT(bands); k++)
                 sh[k] = (float)before[k];
-            lmp_sh_rotation(bands, q, matrices);
+            lmp_sh_make_rotation(bands, q, matrices);
             lmp_sh_rotate(bands, matrices, sh, rotated);
             CHECK_WITHIN(check_error(LMP_SH_COUNT(bands), after, rotated), 2e-6);
         }
@@ -130,7 +132,7 @@ static void is_orthogonal_at_128_bands(void **state) {
                                    { 0.7f, 0.7f, 1e-4f, 0 },
                                    check_random_rotation() };
     for (int i = 0; i < 3; i++) {
-        lmp_sh_rotation(LMP_BANDS_MAX, rotations[i], matrices);
+        lmp_sh_make_rotation(LMP_BANDS_MAX, rotations[i], matrices);
         const int bands[] = { 1, 20, 64, 127 };
         for (int b = 0; b < 4; b++) {
             const int l = bands[b], size = 2 * l + 1;
@@ -151,7 +153,7 @@ static void is_orthogonal_at_128_bands(void **state) {
 static void of_no_rotation_is_the_identity(void **state) {
     (void)state;
     float *matrices = allocate_matrices(LMP_BANDS_MAX);
-    lmp_sh_rotation(LMP_BANDS_MAX, (lmp_quat) { 0, 0, 0, -3 }, matrices);
+    lmp_sh_make_rotation(LMP_BANDS_MAX, (lmp_quat) { 0, 0, 0, -3 }, matrices);
     const float *entry = matrices;
     for (int l = 0; l < LMP_BANDS_MAX; l++)
         for (int m = 0; m <= 2 * l; m++)
@@ -170,8 +172,8 @@ static void undoes_itself(void **state) {
         sh[k] = (float)check_random_between(-1, 1);
         expected[k] = (double)sh[k];
     }
-    lmp_sh_rotation(40, q, there);
-    lmp_sh_rotation(40, back, again);
+    lmp_sh_make_rotation(40, q, there);
+    lmp_sh_make_rotation(40, back, again);
     lmp_sh_rotate(40, there, sh, rotated);
     lmp_sh_rotate(40, again, rotated, returned);
     CHECK_WITHIN(check_error(1600, expected, returned), 5e-6);
@@ -179,7 +181,7 @@ static void undoes_itself(void **state) {
     free(again);
 }
 
-/* All four branches: a rotation whose largest quaternion component is x, y, z, w. */
+/* The rotations take all four branches: the largest component of the quaternion is x, y, z or w. */
 static void a_matrix_rotates_like_its_quaternion(void **state) {
     (void)state;
     enum { BANDS = 6 };
@@ -193,8 +195,8 @@ static void a_matrix_rotates_like_its_quaternion(void **state) {
         matrix_of(q, rotation);
         for (int k = 0; k < 9; k++)
             matrix[k] = (float)rotation[k];
-        lmp_sh_rotation(BANDS, q, expected);
-        lmp_sh_rotation_from_matrix(BANDS, matrix, matrices);
+        lmp_sh_make_rotation(BANDS, q, expected);
+        lmp_sh_make_rotation_from_matrix(BANDS, matrix, matrices);
         for (size_t k = 0; k < LMP_SH_ROTATION_COUNT(BANDS); k++)
             CHECK_WITHIN(fabsf(matrices[k] - expected[k]), 3e-6);
     }
@@ -211,7 +213,7 @@ static void around_z_needs_no_matrices(void **state) {
             sh[k] = (float)check_random_between(-1, 1);
         const double half = (double)angles[i] / 2;
         const lmp_quat q = { 0, 0, (float)sin(half), (float)cos(half) };
-        lmp_sh_rotation(BANDS, q, matrices);
+        lmp_sh_make_rotation(BANDS, q, matrices);
         lmp_sh_rotate(BANDS, matrices, sh, expected);
         lmp_sh_rotate_z(BANDS, angles[i], sh, rotated);
         lmp_sh_rotate_z(BANDS, angles[i], sh, sh); /* in place */
@@ -221,8 +223,8 @@ static void around_z_needs_no_matrices(void **state) {
     }
 }
 
-/* Where angles have no direction of their own, too: middle angles of 0, nearly 0 and half a turn.
- */
+/* The matrices include those without directions of angles: middle angles of 0, nearly 0 and half a
+ * turn. */
 static void a_matrix_rotates_without_matrices(void **state) {
     (void)state;
     enum { BANDS = 24 };
@@ -254,7 +256,7 @@ static void a_matrix_rotates_without_matrices(void **state) {
             matrix[k] = (float)rotation[k];
         for (size_t k = 0; k < LMP_SH_COUNT(BANDS); k++)
             wide[k] = (double)(sh[k] = (float)check_random_between(-1, 1));
-        lmp_sh_rotation_double(BANDS, four, matrices);
+        lmp_sh_make_rotation_double(BANDS, four, matrices);
         lmp_sh_rotate_double(BANDS, matrices, wide, expected);
         for (size_t n = 0; n < sizeof counts / sizeof *counts; n++) {
             const size_t count = LMP_SH_COUNT(counts[n]);

@@ -12,7 +12,7 @@ static void wide(lmp_vec3 v, double w[3]) {
     w[0] = (double)v.x, w[1] = (double)v.y, w[2] = (double)v.z;
 }
 
-/* A band a row; its other columns are 0. */
+/* A row holds one band; its other columns are 0. */
 static void evaluates_128_bands(void **state) {
     (void)state;
     static float sh[LMP_BANDS_MAX * LMP_BANDS_MAX];
@@ -49,7 +49,8 @@ static void evaluates_the_vector_file(void **state) {
     check_csv_close(csv);
 }
 
-/* Bounds: ten times the errors of float32 that docs/accuracy.md measures, by the unit direction. */
+/* The bounds are ten times the errors of float32 that docs/accuracy.md measures, for the unit
+ * direction. */
 static void evaluates_any_number_of_bands(void **state) {
     (void)state;
     const struct {
@@ -136,14 +137,14 @@ static void rotates_zonal_coefficients_to_any_axis(void **state) {
     double w[3], expected[400];
     wide(axis, w);
     oracle_cap(20, w, 0.3, expected);
-    lmp_sh_from_zonal(20, zonal, axis, sh);
+    lmp_sh_expand_zonal(20, zonal, axis, sh);
     CHECK_WITHIN(check_error(400, expected, sh), 1e-5);
-    lmp_sh_from_zonal(20, zonal, (lmp_vec3) { 0, 0, 1 }, along);
+    lmp_sh_expand_zonal(20, zonal, (lmp_vec3) { 0, 0, 1 }, along);
     for (int l = 0; l < 20; l++)
         CHECK_WITHIN(fabs((double)along[LMP_SH_INDEX(l, 0)] - cap[l]), 1e-5);
 }
 
-/* By central differences of the oracle, in double: at the poles, too. */
+/* Compares with central differences of the oracle, in double, at the poles, too. */
 static void the_gradient_is_that_of_the_definition(void **state) {
     (void)state;
     enum { BANDS = 20, COUNT = BANDS * BANDS };

@@ -39,7 +39,8 @@ static void random_spheres(int count, lmp_light *lights) {
                                   .radiance = random_color() };
 }
 
-/* Against the light's own scale of 1, for the sum of a ringing series may cancel. */
+/* Returns the difference relative to the light's own scale of 1, because the sum of a ringing
+ * series may cancel. */
 static double difference(const double *expected, const float *channels) {
     double largest = 0;
     for (int c = 0; c < 3; c++)
@@ -53,7 +54,7 @@ static void to_array(lmp_rgb color, float *channels) {
 
 /* --- the definition, in double ---------------------------------------------------------------- */
 
-/* weight times the kernel max(axis·w, 0), or of a Phong lobe that integrates to 1. */
+/* A lobe: weight times the kernel max(axis·w, 0), or that of a Phong lobe of integral 1. */
 typedef struct defined_lobe {
     bool diffuse;
     double axis[3], exponent, weight[3];
@@ -86,7 +87,7 @@ static int define_ggx(const lmp_material *material, const lmp_surface *surface,
         widen(&material->dielectric.f0.r, f0);
         f90 = (double)material->dielectric.f90;
     }
-    lmp_lobe_ggx(surface->normal, surface->view, material->roughness, &ggx);
+    lmp_lobe_find_ggx(surface->normal, surface->view, material->roughness, &ggx);
     widen(&material->base_color.r, base);
     const double passed = 1 - fmax(f0[0], fmax(f0[1], f0[2])) * (double)ggx.diffuse_f0 -
                           f90 * (double)ggx.diffuse_f90;
@@ -103,7 +104,7 @@ static int define_ggx(const lmp_material *material, const lmp_surface *surface,
     return DEFINED_LOBES;
 }
 
-/* As lampion/shade.h says; returns how many. */
+/* Defines the lobes of a material by lampion/shade.h; returns how many there are. */
 static int define_lobes(const lmp_material *material, const lmp_surface *surface,
                         defined_lobe lobes[DEFINED_LOBES]) {
     double n[3], v[3];
@@ -121,7 +122,7 @@ static int define_lobes(const lmp_material *material, const lmp_surface *surface
     return count;
 }
 
-/* What a lobe makes of coefficients: a dot product of n². */
+/* Returns what a lobe reflects, given coefficients: a dot product of n². */
 static double reflect_by_definition(int bands, const double *window, const defined_lobe *lobe,
                                     const double *light) {
     static double y[1600];
@@ -137,7 +138,7 @@ static double reflect_by_definition(int bands, const double *window, const defin
     return sum;
 }
 
-/* Irradiance of a surface that faces `normal`, of a sphere of radiance 1. */
+/* Returns the irradiance on a surface that faces `normal`, of a sphere of radiance 1. */
 static double irradiance_by_definition(const double center[3], double radius, const double point[3],
                                        const double normal[3]) {
     double along = 0, d2 = 0;
@@ -150,8 +151,8 @@ static double irradiance_by_definition(const double center[3], double radius, co
     return oracle_irradiance(along / d, d < radius ? 1 + cosine : sine * sine / (1 + cosine));
 }
 
-/* Of sphere lights, by the oracle: Phong lobes truncated and windowed, the diffuse one, too, by
- * coefficients and else whole. */
+/* Shades under sphere lights by the oracle: Phong lobes truncated and windowed, and the diffuse
+ * lobe, too, with coefficients, otherwise exact. */
 static void shade_by_definition(lmp_shade_method method, int bands, const double *window,
                                 const lmp_material *material, const lmp_surface *surface,
                                 const lmp_light *lights, int count, double color[3]) {
@@ -208,7 +209,7 @@ static void both_methods_agree_with_the_definition(void **state) {
     }
 }
 
-/* Of the diffuse lobe (unit.irradiance) coefficients have the bands alone. */
+/* Coefficients alone truncate the diffuse lobe (unit.irradiance). */
 static void both_methods_agree_for_every_kind_of_light(void **state) {
     (void)state;
     for (int trial = 0; trial < 30; trial++) {
@@ -306,7 +307,7 @@ static void windows_dim_the_highlight_and_calm_the_ringing(void **state) {
         5e-3);
 }
 
-/* Half of them with a dielectric of their own. */
+/* Returns a random material, half of them with a dielectric of their own. */
 static lmp_material random_metallic_roughness(void) {
     lmp_material material = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
                               .base_color = random_color(),
@@ -340,13 +341,13 @@ static void metallic_roughness_is_shaded_by_the_lobes_of_ggx(void **state) {
                                 lights, 3, expected);
             to_array(lmp_shade(&settings, &material, &surface, lights, 3), channels);
             CHECK_WITHIN(difference(expected, channels), 2e-5);
-            lmp_shade_n(&settings, &one, 1, lights, 3, 0, channels);
+            lmp_shade_n(&settings, &one, 1, lights, 3, (lmp_rgb_array) { channels, 0 });
             CHECK_WITHIN(difference(expected, channels), 1e-4);
         }
     }
 }
 
-/* Schlick's, under a uniform sky. */
+/* Fresnel's law in Schlick's form, under a uniform sky. */
 static void a_smooth_metal_reflects_by_fresnels_law(void **state) {
     (void)state;
     const lmp_light sky = { .kind = LMP_LIGHT_HEMISPHERE,
@@ -369,7 +370,7 @@ static void a_smooth_metal_reflects_by_fresnels_law(void **state) {
     }
 }
 
-/* Under a uniform sky, its base black: the layer's Fresnel term alone. */
+/* The sky is uniform and the base black: only the layer's Fresnel term remains. */
 static void a_smooth_dielectric_reflects_by_its_f0_and_f90(void **state) {
     (void)state;
     const lmp_light sky = { .kind = LMP_LIGHT_HEMISPHERE,

@@ -9,7 +9,7 @@
 
 enum { COUNT = 331, LIGHTS = 41 };
 
-/* An array of structures, and what comes out, as a host may keep them. */
+/* A vertex and a result as a host may keep them, in arrays of structures. */
 typedef struct vertex {
     lmp_surface surface;
     lmp_material material;
@@ -31,7 +31,7 @@ static lmp_vec3 point_within(float size) {
                         between(-(double)size, (double)size) };
 }
 
-/* Spheres alone, or lights of all kinds; some spheres hold some of the surfaces. */
+/* Scatters spheres alone, or lights of all kinds; some spheres contain some of the surfaces. */
 static void scatter(bool all_kinds) {
     for (int i = 0; i < COUNT; i++) {
         vertices[i].surface = (lmp_surface) { .position = point_within(1),
@@ -70,7 +70,7 @@ static lmp_surfaces interleaved(void) {
     };
 }
 
-/* The largest difference from the reference, in units of the largest value. */
+/* Returns the largest difference from the reference, relative to the largest value. */
 static double difference(const float *rgb, size_t stride,
                          lmp_rgb (*reference)(const vertex *v, const void *user),
                          const void *user) {
@@ -92,7 +92,7 @@ static lmp_rgb by_bands(const vertex *v, const void *settings) {
     return lmp_shade(settings, &v->material, &v->surface, lights, LIGHTS);
 }
 
-/* Straight from lmp_preintegrated_lobe_eval and lmp_light_irradiance, light by light. */
+/* Shades by lmp_preintegrated_lobe_eval and lmp_light_irradiance, light by light. */
 static lmp_rgb by_lobe_table(const vertex *v, const void *lobe) {
     const float pi = 3.14159265f;
     const lmp_vec3 n = v->surface.normal, e = v->surface.view;
@@ -101,7 +101,7 @@ static lmp_rgb by_lobe_table(const vertex *v, const void *lobe) {
     double sum[3] = { 0, 0, 0 };
     for (int i = 0; i < LIGHTS; i++) {
         lmp_cap cap;
-        lmp_light_cap(&lights[i], v->surface.position, &cap);
+        lmp_light_find_cap(&lights[i], v->surface.position, &cap);
         const lmp_vec3 w = cap.axis;
         const lmp_rgb facing = lmp_light_irradiance(&lights[i], 1, v->surface.position, n);
         const float specular = lmp_preintegrated_lobe_eval(
@@ -114,7 +114,7 @@ static lmp_rgb by_lobe_table(const vertex *v, const void *lobe) {
     return (lmp_rgb) { (float)fmax(sum[0], 0), (float)fmax(sum[1], 0), (float)fmax(sum[2], 0) };
 }
 
-/* v mirrored about a unit axis. */
+/* Returns v mirrored about a unit axis. */
 static lmp_vec3 across(lmp_vec3 axis, lmp_vec3 v) {
     const float twice = 2 * (axis.x * v.x + axis.y * v.y + axis.z * v.z);
     return (lmp_vec3) { twice * axis.x - v.x, twice * axis.y - v.y, twice * axis.z - v.z };
@@ -126,7 +126,7 @@ static void face_highlight(const lmp_light *light, float width) {
         lmp_surface *surface = &vertices[i].surface;
         const lmp_vec3 off = check_random_direction();
         lmp_cap cap;
-        lmp_light_cap(light, surface->position, &cap);
+        lmp_light_find_cap(light, surface->position, &cap);
         const float part = between(0, (double)width);
         const lmp_vec3 w = { cap.axis.x + part * off.x, cap.axis.y + part * off.y,
                              cap.axis.z + part * off.z };
@@ -136,8 +136,8 @@ static void face_highlight(const lmp_light *light, float width) {
     }
 }
 
-/* What shade.h lets a light be off by: parts of the most it can give there, both lobes towards it.
- */
+/* Adds the bounds of shade.h for each light: fractions of the most it can give there, with both
+ * lobes pointing at it. */
 static void add_bounds(const lmp_shade_settings *settings, const vertex *v, const lmp_light *light,
                        double sum[3]) {
     const lmp_surface *s = &v->surface;
@@ -145,7 +145,7 @@ static void add_bounds(const lmp_shade_settings *settings, const vertex *v, cons
     lmp_material diffuse_only = v->material, specular_only = v->material;
     diffuse_only.specular = specular_only.diffuse = (lmp_rgb) { 0, 0, 0 };
     lmp_cap cap;
-    lmp_light_cap(light, s->position, &cap);
+    lmp_light_find_cap(light, s->position, &cap);
     lmp_light moved = { .kind = LMP_LIGHT_DIRECTIONAL, .direction = s->normal };
     float scale = 1;
     if (cap.sin2 > 0) {
@@ -166,7 +166,7 @@ static void add_bounds(const lmp_shade_settings *settings, const vertex *v, cons
     sum[2] += bound * (double)(diffuse.b + specular.b + (d.b + e.b) * cap.ambient.b);
 }
 
-/* The largest difference from lmp_shade, in parts of what shade.h bounds it by. */
+/* Returns the largest difference from lmp_shade, relative to the bound of shade.h. */
 static double fraction_of_bound(const lmp_shade_settings *settings, const lmp_light *from,
                                 size_t count, const float *rgb, size_t stride) {
     double fraction = 0;
@@ -196,20 +196,22 @@ static void many_surfaces_are_shaded_as_one_is(void **state) {
             scatter(kinds != 0);
             const lmp_shade_settings settings = { .bands = bands[b],
                                                   .window = (lmp_window)(b % 3) };
-            lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 4 * sizeof *rgb, rgb);
+            lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS,
+                        (lmp_rgb_array) { rgb, 4 * sizeof *rgb });
             CHECK_WITHIN(fraction_of_bound(&settings, lights, LIGHTS, rgb, 4), 1);
             for (int i = 0; i < 6; i++) {
                 lights[i].radius *= i % 2 ? 0.01f : 1;
                 face_highlight(&lights[i], 4.0f / (float)bands[b]);
-                lmp_shade_n(&settings, &surfaces, COUNT, &lights[i], 1, 4 * sizeof *rgb, rgb);
+                lmp_shade_n(&settings, &surfaces, COUNT, &lights[i], 1,
+                            (lmp_rgb_array) { rgb, 4 * sizeof *rgb });
                 CHECK_WITHIN(fraction_of_bound(&settings, &lights[i], 1, rgb, 4), 1);
             }
         }
     }
 }
 
-/* A light without size, at a distance d where there is one, that gives the strength to surfaces at
- * the origin; of a spot all comes. */
+/* Returns a light of size 0, at a distance d if it has a position, that gives surfaces at the
+ * origin a strength; a spot's light arrives undimmed. */
 static lmp_light dirac_of(lmp_light_kind kind, float d, float strength) {
     const lmp_vec3 w = check_random_direction();
     const float held = kind == LMP_LIGHT_DIRECTIONAL ? 1 : fmaxf(d, LMP_POINT_DISTANCE_MIN);
@@ -238,7 +240,7 @@ static void lights_without_size_are_so_at_any_distance_and_strength(void **state
         const lmp_light light = dirac_of((lmp_light_kind)(LMP_LIGHT_POINT + k / 24), d, strength);
         const lmp_shade_settings settings = { .bands = bands[k % 4] };
         face_highlight(&light, 4.0f / (float)bands[k % 4]);
-        lmp_shade_n(&settings, &surfaces, COUNT, &light, 1, 0, rgb);
+        lmp_shade_n(&settings, &surfaces, COUNT, &light, 1, (lmp_rgb_array) { rgb, 0 });
         CHECK_WITHIN(fraction_of_bound(&settings, &light, 1, rgb, 3), 1);
     }
 }
@@ -263,7 +265,7 @@ static void lights_without_size_are_read_from_a_preintegrated_lobe_as_they_are(v
             lights[i].intensity = (lmp_rgb) { 0, 0, 0 };
         }
         face_highlight(&lights[0], 0.3f);
-        lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+        lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, (lmp_rgb_array) { rgb, 0 });
         CHECK_WITHIN(difference(rgb, 3, by_lobe_table, lobe), 1e-4);
         CHECK_WITHIN(difference(rgb, 3, by_bands, &settings), 2e-2);
     }
@@ -283,16 +285,16 @@ static void many_surfaces_are_read_from_a_preintegrated_lobe_as_one_is(void **st
         for (int kinds = 0; kinds < 2; kinds++) {
             scatter(kinds != 0);
             const lmp_shade_settings readings = by_readings(lobe);
-            lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+            lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, (lmp_rgb_array) { rgb, 0 });
             CHECK_WITHIN(difference(rgb, 3, by_lobe_table, lobe), kinds ? 5e-4 : 1e-4);
-            /* Its own largest value may miss the peak of a light, which the error is a part of. */
+            /* The largest value may miss the peak of a light, to which the error is relative. */
             CHECK_WITHIN(difference(rgb, 3, by_bands, &settings), 2e-2);
         }
         lmp_preintegrated_lobe_destroy(lobe);
     }
 }
 
-/* Every third surface is glTF's, so that runs of both kinds lie between each other. */
+/* Every third surface is glTF's, so that runs of both kinds alternate. */
 static void scatter_both_kinds(void) {
     scatter(true);
     for (int i = 0; i < COUNT; i += 3)
@@ -313,7 +315,7 @@ static void both_kinds_of_lobes_are_shaded_side_by_side(void **state) {
     for (int b = 0; b < 5; b++) {
         const lmp_shade_settings settings = { .bands = bands[b] };
         scatter_both_kinds();
-        lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+        lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, (lmp_rgb_array) { rgb, 0 });
         CHECK_WITHIN(difference(rgb, 3, by_bands, &settings), 5e-4);
     }
 }
@@ -326,21 +328,21 @@ static void every_instruction_set_gives_the_same_bits(void **state) {
     assert_int_equal(lmp_preintegrated_lobe_create(NULL, NULL, &lobe), LMP_OK);
     scatter_both_kinds();
     for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
-        if (lmp_cpu_mask(flag) != flag)
+        if (lmp_cpu_limit(flag) != flag)
             continue;
-        lmp_shade_n(NULL, &surfaces, COUNT, lights, LIGHTS, 0, rgb[0]);
+        lmp_shade_n(NULL, &surfaces, COUNT, lights, LIGHTS, (lmp_rgb_array) { rgb[0], 0 });
         const lmp_shade_settings readings = by_readings(lobe);
-        lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb[1]);
+        lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, (lmp_rgb_array) { rgb[1], 0 });
         if (flag == LMP_CPU_SCALAR)
             memcpy(first, rgb, sizeof rgb);
         assert_memory_equal(first, rgb, sizeof rgb);
     }
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
     lmp_preintegrated_lobe_destroy(lobe);
 }
 
-/* Whatever the lanes are: surfaces of a chunk, or few of them beside each other; of many materials,
- * or of one, whose factors a block takes over from the one before. */
+/* The lanes may be surfaces of a chunk, or a few of them side by side; of many materials, or of
+ * one, whose factors a block takes over from the one before. */
 static void few_lights_give_a_surface_the_same_bits_in_any_company(void **state) {
     (void)state;
     static float first[COUNT * 3], rgb[COUNT * 3], alone[3];
@@ -353,13 +355,13 @@ static void few_lights_give_a_surface_the_same_bits_in_any_company(void **state)
             const lmp_shade_settings settings = { .bands = bands[run / 9 % 6] };
             const lmp_surface *s = &vertices[i].surface;
             lmp_surfaces surfaces = interleaved();
-            if (lmp_cpu_mask(flag) != flag)
+            if (lmp_cpu_limit(flag) != flag)
                 continue;
             if (run >= 9 * 6) {
                 surfaces.material = &same;
                 surfaces.material_stride = 0;
             }
-            lmp_shade_n(&settings, &surfaces, COUNT, lights, count, 0, rgb);
+            lmp_shade_n(&settings, &surfaces, COUNT, lights, count, (lmp_rgb_array) { rgb, 0 });
             if (flag == LMP_CPU_SCALAR)
                 memcpy(first, rgb, sizeof rgb);
             assert_memory_equal(first, rgb, sizeof rgb);
@@ -368,10 +370,42 @@ static void few_lights_give_a_surface_the_same_bits_in_any_company(void **state)
             surfaces.view = lmp_vec3_array_same(&s->view);
             if (surfaces.material_stride)
                 surfaces.material = &vertices[i].material;
-            lmp_shade_n(&settings, &surfaces, 1, lights, count, 0, alone);
+            lmp_shade_n(&settings, &surfaces, 1, lights, count, (lmp_rgb_array) { alone, 0 });
             assert_memory_equal(alone, &rgb[3 * i], sizeof alone);
         }
-    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_cpu_limit(LMP_CPU_ALL);
+}
+
+/* Surfaces of which none has a highlight are shaded without Phong lobes; one that has, in a single
+ * color, is enough for all beside it to have theirs. */
+static void matte_surfaces_have_the_same_bits_in_any_company(void **state) {
+    (void)state;
+    static float matte[COUNT * 3], mixed[COUNT * 3];
+    const int bands[] = { 1, 6, 10, 49, 128 };
+    const size_t light_counts[] = { 1, 3, 7, LIGHTS };
+    const lmp_surfaces surfaces = interleaved();
+    for (size_t run = 0; run < 5 * 4 * 3; run++) {
+        const lmp_shade_settings settings = { .bands = bands[run % 5] };
+        const size_t count = light_counts[run / 5 % 4], channel = run / 20;
+        const float one = 0.5f * (float)(channel == 0), two = 0.5f * (float)(channel == 1),
+                    three = 0.5f * (float)(channel == 2);
+        size_t changed = 0;
+        scatter(true);
+        for (int i = 0; i < COUNT; i++)
+            vertices[i].material.specular = (lmp_rgb) { 0, 0, 0 };
+        lmp_shade_n(&settings, &surfaces, COUNT, lights, count, (lmp_rgb_array) { matte, 0 });
+        if (count == LIGHTS)
+            CHECK_WITHIN(difference(matte, 3, by_bands, &settings), 1e-5);
+        for (int i = 29; i < COUNT; i += 30)
+            vertices[i].material.specular = (lmp_rgb) { one, two, three };
+        lmp_shade_n(&settings, &surfaces, COUNT, lights, count, (lmp_rgb_array) { mixed, 0 });
+        for (size_t i = 0; i < COUNT; i++) {
+            const int same = memcmp(&matte[3 * i], &mixed[3 * i], 3 * sizeof *matte) == 0;
+            assert_true(same || i % 30 == 29);
+            changed += !same;
+        }
+        assert_true(changed > 0);
+    }
 }
 
 static void any_count_and_any_stride_writes_only_its_own(void **state) {
@@ -379,23 +413,24 @@ static void any_count_and_any_stride_writes_only_its_own(void **state) {
     static float whole[COUNT * 3], some[COUNT * 5];
     const lmp_surfaces surfaces = interleaved();
     scatter(true);
-    lmp_shade_n(NULL, &surfaces, COUNT, lights, LIGHTS, 0, whole);
+    lmp_shade_n(NULL, &surfaces, COUNT, lights, LIGHTS, (lmp_rgb_array) { whole, 0 });
     for (size_t count = 0; count < 40; count++) {
         for (size_t i = 0; i < COUNT * 5; i++)
             some[i] = -7;
-        lmp_shade_n(NULL, &surfaces, count, lights, LIGHTS, 5 * sizeof *some, some);
+        lmp_shade_n(NULL, &surfaces, count, lights, LIGHTS,
+                    (lmp_rgb_array) { some, 5 * sizeof *some });
         for (size_t i = 0; i < COUNT * 5; i++)
             if (i / 5 < count && i % 5 < 3)
                 assert_memory_equal(&some[i], &whole[i / 5 * 3 + i % 5], sizeof(float));
             else
                 assert_true(some[i] > -7.5f && some[i] < -6.5f);
     }
-    lmp_shade_n(NULL, &surfaces, 2, NULL, 0, 0, some);
+    lmp_shade_n(NULL, &surfaces, 2, NULL, 0, (lmp_rgb_array) { some, 0 });
     for (int i = 0; i < 6; i++)
         CHECK_WITHIN(fabsf(some[i]), 0);
 }
 
-/* A NaN is shaded to whatever, and the others as ever. */
+/* A surface with NaN gets any color, and the others the usual ones. */
 static void not_a_number_stays_with_its_surface(void **state) {
     (void)state;
     static float whole[COUNT * 3], rgb[COUNT * 3];
@@ -414,8 +449,8 @@ static void not_a_number_stays_with_its_surface(void **state) {
             scatter(true);
             float *const to[2] = { whole, rgb };
             for (int pass = 0; pass < 2; pass++) {
-                lmp_shade_n(method ? &readings : &settings, &surfaces, COUNT, lights, LIGHTS, 0,
-                            to[pass]);
+                lmp_shade_n(method ? &readings : &settings, &surfaces, COUNT, lights, LIGHTS,
+                            (lmp_rgb_array) { to[pass], 0 });
                 vertices[3].surface.position.y = NAN;
                 vertices[40].surface.normal.x = NAN;
                 vertices[77].surface.view.z = NAN;
@@ -426,7 +461,7 @@ static void not_a_number_stays_with_its_surface(void **state) {
         }
         scatter(true);
         lights[0].radius = lights[6].position.x = NAN;
-        lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+        lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, (lmp_rgb_array) { rgb, 0 });
         lmp_preintegrated_lobe_destroy(lobe);
     }
 }
@@ -440,6 +475,7 @@ int main(void) {
         cmocka_unit_test(both_kinds_of_lobes_are_shaded_side_by_side),
         cmocka_unit_test(every_instruction_set_gives_the_same_bits),
         cmocka_unit_test(few_lights_give_a_surface_the_same_bits_in_any_company),
+        cmocka_unit_test(matte_surfaces_have_the_same_bits_in_any_company),
         cmocka_unit_test(not_a_number_stays_with_its_surface),
         cmocka_unit_test(any_count_and_any_stride_writes_only_its_own),
     };

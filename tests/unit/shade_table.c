@@ -34,7 +34,8 @@ static lmp_brdf_table *table_of(lmp_brdf *brdf, int bands, int azimuths) {
     return table;
 }
 
-/* A Lambert table is the diffuse lobe's bands: the same number by a table and by coefficients. */
+/* A Lambert table holds the diffuse lobe's bands: the table and coefficients give the same number.
+ */
 static void lambert_tables_shade_as_the_diffuse_lobe(void **state) {
     (void)state;
     lmp_brdf *brdf = NULL;
@@ -56,7 +57,7 @@ static void lambert_tables_shade_as_the_diffuse_lobe(void **state) {
     lmp_brdf_table_destroy(table);
 }
 
-/* ∫ L f_r cos over the light's cap, by quadrature of the BRDF in the world's frame. */
+/* Integrates L f_r cos over the light's cap, by quadrature of the BRDF in the world's frame. */
 static double by_definition(const lmp_brdf *brdf, const lmp_surface *s, lmp_vec3 x, lmp_vec3 y,
                             const lmp_light *light) {
     enum { RINGS = 24, AZIMUTHS = 48 };
@@ -102,7 +103,7 @@ static lmp_vec3 cross(lmp_vec3 a, lmp_vec3 b) {
     return (lmp_vec3) { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
 
-/* Many surfaces read the tangent, too. */
+/* Checks that shading many surfaces reads the tangent, too. */
 static void check_batch_of_one(const lmp_material *material, const lmp_surface *surface,
                                const lmp_light *light, lmp_rgb expected) {
     const lmp_surfaces one = { .position = lmp_vec3_array_same(&surface->position),
@@ -111,11 +112,11 @@ static void check_batch_of_one(const lmp_material *material, const lmp_surface *
                                .tangent = lmp_vec3_array_same(&surface->tangent),
                                .material = material };
     lmp_rgb color;
-    lmp_shade_n(NULL, &one, 1, light, 1, 0, &color.r);
+    lmp_shade_n(NULL, &one, 1, light, 1, lmp_rgb_array_of(&color));
     assert_memory_equal(&color, &expected, sizeof color);
 }
 
-/* A brushed metal wide enough for 16 bands, its tangent anywhere. */
+/* A brushed metal that 16 bands resolve, with any tangent. */
 static void anisotropic_tables_shade_by_the_tangent(void **state) {
     (void)state;
     const lmp_ggx desc = { 0.8f, 0.5f, { 0.9f, 0.6f, 0.3f }, { 0, 0, 0 } };
@@ -150,7 +151,7 @@ static void anisotropic_tables_shade_by_the_tangent(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* Straight down, along the normal, and from below: finite everywhere. */
+/* Views straight down, along the normal, and from below give finite colors. */
 static void odd_views_give_finite_colors(void **state) {
     (void)state;
     lmp_brdf *brdf = NULL;

@@ -52,7 +52,7 @@ static void derives_the_vector_file(void **state) {
     check_csv_close(csv);
 }
 
-/* Every eleventh coefficient of some bands, 0 in columns past the band. */
+/* A row has every eleventh coefficient of some bands, 0 in columns past the band. */
 static void projects_spheres_and_derives_them_at_128_bands(void **state) {
     (void)state;
     enum { KEPT = 23, STEP = 11, ALL = LMP_BANDS_MAX * LMP_BANDS_MAX };
@@ -88,7 +88,7 @@ static void gives_zonal_coefficients_of_128_bands(void **state) {
         double expected[128];
         float zonal[128];
         check_csv_numbers(csv, row, 1, 128, expected);
-        lmp_sphere_zonal(128, (float)check_csv_number(csv, row, 0), 1, zonal);
+        lmp_sphere_project_zonal(128, (float)check_csv_number(csv, row, 0), 1, zonal);
         CHECK_WITHIN(check_error(128, expected, zonal), 4e-6);
     }
     check_csv_close(csv);
@@ -101,8 +101,8 @@ static void projects_as_its_zonal_coefficients_rotated(void **state) {
     static double wide[MOST];
     for (int i = 0; i < 8; i++) {
         const lmp_vec3 w = check_random_direction();
-        lmp_sphere_zonal(LMP_BANDS_MAX, radii[i], 1, zonal);
-        lmp_sh_from_zonal(LMP_BANDS_MAX, zonal, w, expected);
+        lmp_sphere_project_zonal(LMP_BANDS_MAX, radii[i], 1, zonal);
+        lmp_sh_expand_zonal(LMP_BANDS_MAX, zonal, w, expected);
         lmp_sphere_project(LMP_BANDS_MAX, w, radii[i], (lmp_vec3) { 0, 0, 0 }, sh);
         for (int k = 0; k < MOST; k++)
             wide[k] = (double)expected[k];
@@ -158,7 +158,7 @@ static void of_no_size_is_dark_even_where_it_is(void **state) {
     lmp_sphere_project(10, (lmp_vec3) { 1, 2, 3 }, 0, origin, sh);
     for (int k = 0; k < 100; k++)
         assert_true(sh[k] == 0);
-    lmp_sphere_zonal(10, 0, 0, zonal);
+    lmp_sphere_project_zonal(10, 0, 0, zonal);
     for (int l = 0; l < 10; l++)
         assert_true(zonal[l] == 0);
 }

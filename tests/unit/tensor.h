@@ -59,7 +59,8 @@ static inline field *find(tensor *t, const char *name) {
     return NULL;
 }
 
-/* An isotropic file without samples, whose remapping is the identity and whose model is 1 / 4. */
+/* Makes an isotropic file without samples, whose remapping is the identity and whose model is 1 /
+ * 4. */
 static inline tensor flat(void) {
     tensor t = { 0 };
     add(&t, "theta_i", F32, SHAPE(2), 0)->values[1] = 1.5f;
@@ -79,7 +80,7 @@ static inline tensor flat_rgb(void) {
     return t;
 }
 
-/* `count` wavelengths in nm, their spectrum the same everywhere. */
+/* Makes a file of `count` wavelengths in nm, whose spectrum is the same everywhere. */
 static inline tensor flat_spectral(size_t count, const float *nm, const float *spectrum) {
     tensor t = flat();
     memcpy(add(&t, "wavelengths", F32, SHAPE(count), 0)->values, nm, count * sizeof *nm);
@@ -102,7 +103,7 @@ static inline size_t directory_size(const tensor *t) {
     return size;
 }
 
-/* The bytes of a file, in a block of exactly their size. */
+/* Returns the bytes of a file, in a block of exactly their size. */
 static inline unsigned char *bytes_of(const tensor *t, size_t *size) {
     size_t at = directory_size(t);
     *size = at;
@@ -111,21 +112,21 @@ static inline unsigned char *bytes_of(const tensor *t, size_t *size) {
     unsigned char *bytes = malloc(*size), *p = bytes;
     assert_non_null(bytes);
     memcpy(p, "tensor_file\0\1", 14); /* version 1.0 */
-    p = lmp_bytes_store_u32(p + 14, (uint32_t)t->count);
+    p = lmpi_bytes_store_u32(p + 14, (uint32_t)t->count);
     for (int i = 0; i < t->count; i++) {
         const field *f = &t->fields[i];
-        p = lmp_bytes_store_u16(p, (uint16_t)strlen(f->name));
+        p = lmpi_bytes_store_u16(p, (uint16_t)strlen(f->name));
         memcpy(p, f->name, strlen(f->name));
-        p = lmp_bytes_store_u16(p + strlen(f->name), (uint16_t)f->dimensions);
+        p = lmpi_bytes_store_u16(p + strlen(f->name), (uint16_t)f->dimensions);
         *p++ = (unsigned char)f->type;
-        p = lmp_bytes_store_u64(p, at);
+        p = lmpi_bytes_store_u64(p, at);
         for (unsigned d = 0; d < f->dimensions; d++)
-            p = lmp_bytes_store_u64(p, f->shape[d]);
+            p = lmpi_bytes_store_u64(p, f->shape[d]);
         for (size_t k = 0; k < field_count(f); k++)
             if (f->type == U8)
                 bytes[at++] = (unsigned char)f->values[k];
             else {
-                lmp_bytes_store_f32(bytes + at, f->values[k]);
+                lmpi_bytes_store_f32(bytes + at, f->values[k]);
                 at += 4;
             }
     }
@@ -140,7 +141,7 @@ static inline lmp_brdf *read_bytes(const unsigned char *bytes, size_t size) {
     return brdf;
 }
 
-/* Reads the tensor, which is dropped. */
+/* Reads a tensor, and frees it. */
 static inline lmp_brdf *opened(tensor t) {
     size_t size = 0;
     unsigned char *bytes = bytes_of(&t, &size);

@@ -15,7 +15,7 @@ for name in kernels batch; do
     node "$WORK/$name.js" >"$WORK/log" 2>&1 || fail "$name: $(tail -c 2000 "$WORK/log")"
 done
 
-# another bit would be seen
+# Another bit must be found.
 sed 's/0x092618f8u/0x092618f9u/' tests/kernels/golden.h >"$WORK/golden.h"
 ! cmp -s "$WORK/golden.h" tests/kernels/golden.h || fail "the checksum to break is not there"
 mkdir -p "$WORK/tests/kernels"

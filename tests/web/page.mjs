@@ -19,7 +19,7 @@ async function open(hash) {
 }
 const pixels = `(lampion.draw(), createImageBitmap(document.getElementById("view")))`;
 
-// The fraction of the page's pixels that differ by more than two levels from what PROGRAM renders.
+// Returns the fraction of the page's pixels that differ by more than two levels from what PROGRAM renders.
 async function rendered(...options) {
     const exposure = await evaluate('lampion.exposure');
     execFileSync(program, ['render', 'builtin:atrium', '--no-shadows', '--samples', '1', '--exposure', `${exposure}`,
@@ -47,7 +47,7 @@ async function screenshot(name) {
     writeFileSync(`${work}/${name}.png`, Buffer.from(data, 'base64'));
 }
 
-// A light that is seen, and where on the page that is.
+// Finds a light that is visible, and its position on the page.
 const findLight = () => evaluate(`Array.from({ length: 30 }, (none, i) => i).find((i) => {
     const [x, y] = lampion.project(i);
     return x > 40 && x < innerWidth - 80 && y > 20 && y < innerHeight / 2 && lampion.pick([x, y]) === i;
@@ -106,7 +106,7 @@ async function rest() {
     assert.ok(before.every((light, i) => (light === after[i]) === (i < 30)), 'the first 30 lights alone rest');
 }
 
-// The whole panel is seen in a small window.
+// The whole panel must be visible in a small window.
 async function small() {
     await browser.size(640, 420);
     await open('time=0&scale=0.3');

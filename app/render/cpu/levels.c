@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/cpu/levels.h"
 
+#include "app/base/memory.h"
 #include "app/image/srgb.h"
-#include "app/memory/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +25,7 @@ static void make_curve(cpu_textures *t) {
     }
 }
 
-/* The byte whose value is nearest. */
+/* Returns the byte that encodes a value best. */
 static unsigned char encode(const cpu_textures *t, bool srgb, float linear) {
     if (!srgb)
         return (unsigned char)(linear * 255 + 0.5f);
@@ -39,7 +39,8 @@ static unsigned char encode(const cpu_textures *t, bool srgb, float linear) {
 
 /* --- levels ----------------------------------------------------------------------------------- */
 
-/* Of `from` texels those that texel i of `to` covers, and how much of each. */
+/* The texels of a level of size `from` that texel i of the next level, of size `to`, covers, and
+ * their weights. */
 typedef struct cover {
     uint32_t first;
     int count;
@@ -55,7 +56,8 @@ static cover cover_of(uint32_t i, uint32_t from, uint32_t to) {
         c.weights[0] = c.weights[1] = 0.5f;
         return c;
     }
-    /* each of an odd number is covered by two and a fraction of their number's inverse */
+    /* of an odd number, each texel covers from / to texels: two and a fraction, spread over
+     * three */
     c.count = 3;
     c.weights[0] = (float)(to - i) / (float)from;
     c.weights[1] = (float)to / (float)from;
@@ -88,7 +90,7 @@ static uint32_t half_of(uint32_t side) {
     return side > 1 ? side / 2 : 1;
 }
 
-/* Sets the sizes of the levels; returns the bytes of those below the first. */
+/* Sets the sizes of the levels; returns the bytes of all but the first. */
 static size_t measure_levels(cpu_texture *to) {
     size_t bytes = 0;
     uint32_t width = to->levels[0].width, height = to->levels[0].height;
@@ -109,7 +111,7 @@ static void make_levels(const cpu_textures *t, cpu_texture *to, unsigned char *m
     }
 }
 
-/* The one before it that shows the same texels by the same curve, or none. */
+/* Returns an earlier texture with the same texels and color space, or NULL. */
 static const cpu_texture *find_same(const cpu_textures *t, size_t number) {
     const cpu_texture *to = &t->of[number];
     for (size_t i = 0; i < number; i++)
@@ -120,7 +122,7 @@ static const cpu_texture *find_same(const cpu_textures *t, size_t number) {
     return NULL;
 }
 
-/* Every texture's levels; those that are the same are there once. */
+/* Makes the levels of every texture; textures with the same levels share them. */
 static bool make_all_levels(cpu_textures *t) {
     size_t *first = malloc((t->count + 1) * sizeof *first), bytes = 0;
     for (size_t i = 0; first && i < t->count; i++) {

@@ -2,35 +2,36 @@
 #include "app/render/cpu/rays.h"
 
 #include "app/render/cpu/surface.h"
+#include "app/scene/instance.h"
+#include "app/scene/trace/blend.h"
+#include "app/scene/trace/trace.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-bool cpu_lights_create(const render_frame *frame, const trace_bvh *bvh, trace_spheres **lights) {
-    trace_sphere *drawn = malloc((frame->light_count + 1) * sizeof *drawn);
+bool cpu_lights_create(const render_frame *frame, const trace_bvh *bvh, trace_lamps **lights) {
+    trace_lamp *drawn = malloc((frame->light_count + 1) * sizeof *drawn);
     size_t count = 0;
     *lights = NULL;
     if (!drawn)
         return false;
     for (size_t i = 0; i < frame->light_count; i++) {
-        const lmp_light *e = &frame->lights[i].emitter;
-        if (!scene_light_is_drawn(&frame->lights[i]))
-            continue;
-        drawn[count++] = (trace_sphere) { .center = { e->position.x, e->position.y, e->position.z },
-                                          .radius = e->radius,
-                                          .number = (uint32_t)i };
+        if (scene_light_is_drawn(&frame->lights[i]))
+            drawn[count++] = (trace_lamp) { &frame->lights[i].emitter, (uint32_t)i };
     }
     if (count > 0)
-        *lights = trace_spheres_create(bvh, drawn, count);
+        *lights = trace_lamps_create(bvh, drawn, count);
     free(drawn);
     return count == 0 || *lights;
 }
 
-/* Rays side by side are a square of pixels: two halves of 4 by 2, the packets of half the width. */
+/* Rays side by side cover a square of pixels: two halves of 4 by 2, which are the packets of half
+ * the width. */
 enum { SIDE = 4 };
 
-/* Of the pixels of a square as far as it lies in the rectangle that ends after so many. */
+/* Sets the rays of a square's pixels; those outside the rectangle, which ends after width and
+ * height, are inactive. */
 static void set_rays(const render_surfaces *s, int x, int y, int width, int height,
                      trace_rays *rays) {
     const render_camera *c = &s->camera;
@@ -41,28 +42,79 @@ static void set_rays(const render_surfaces *s, int x, int y, int width, int heig
         columns[i] = x + i % SIDE;
         rows[i] = y + i / SIDE;
     }
-    /* those past the edge are none, but have a direction like their neighbors' */
+    /* inactive rays, too, have a direction similar to their neighbors' */
     render_camera_rays(c, columns, rows, TRACE_LANES, origin, direction);
-    rays->sample = (uint32_t)c->sample;
-    rays->samples = (uint32_t)c->samples;
     for (int i = 0; i < TRACE_LANES; i++) {
         const bool inside = i % SIDE < width && i / SIDE < height;
         rays->start[i] = c->parallel ? 0 : c->near;
         rays->length[i] = inside ? c->far : -1;
-        rays->pixel[i] = (uint32_t)columns[i] * 1664525u + (uint32_t)rows[i] * 1013904223u;
     }
 }
 
-/* Lights are seen where they are before what the rays have hit. */
+/* The most surfaces that a ray looks through. */
+enum { LAYERS_MAX = 64 };
+
+/* Whether a ray's sample sees the surface that it has hit. */
+static bool sees(const cpu_view *view, const trace_hit *hit, blend_part *part) {
+    if (hit->instance == TRACE_NOTHING)
+        return true;
+    const uint32_t material = scene_instance_material(view->scene, hit->instance);
+    return !(view->scene->materials[material].flags & SCENE_ALPHA_BLEND) ||
+           blend_sees(part, (float)trace_alpha(view->scene, hit));
+}
+
+/* Lets the rays continue whose samples see what is behind; returns whether there are any. */
+static bool pass(const cpu_view *view, const trace_hit hits[TRACE_LANES],
+                 blend_part parts[TRACE_LANES], trace_rays *onward) {
+    bool some = false;
+    for (int i = 0; i < TRACE_LANES; i++) {
+        if (onward->length[i] < 0 || sees(view, &hits[i], &parts[i]))
+            onward->length[i] = -1;
+        else
+            onward->start[i] = hits[i].distance;
+        some |= onward->length[i] >= 0;
+    }
+    return some;
+}
+
+/* Replaces each ray's hit by the surface that its sample sees, in a scene with blended surfaces. */
+static void look_through(const cpu_view *view, int x, int y, trace_rays onward,
+                         trace_hit hits[TRACE_LANES], const render_surfaces *s) {
+    blend_part parts[TRACE_LANES];
+    trace_hit behind[TRACE_LANES];
+    bool inside[TRACE_LANES];
+    for (int i = 0; i < TRACE_LANES; i++) {
+        const uint32_t column = (uint32_t)(x + i % SIDE), row = (uint32_t)(y + i / SIDE);
+        inside[i] = onward.length[i] >= 0;
+        parts[i] =
+            blend_begin(column, row, (uint32_t)s->camera.sample, (uint32_t)s->camera.samples);
+    }
+    for (int layer = 0; layer < LAYERS_MAX && pass(view, hits, parts, &onward); layer++) {
+        trace_nearest_n(view->bvh, TRACE_CAMERA, &onward, behind);
+        for (int i = 0; i < TRACE_LANES; i++)
+            if (onward.length[i] >= 0)
+                hits[i] = behind[i];
+    }
+    for (int i = 0; i < TRACE_LANES; i++)
+        if (inside[i])
+            s->weight[render_surfaces_at(s, x + i % SIDE, y + i / SIDE)] =
+                parts[i].blended ? parts[i].weight : 0;
+}
+
+/* Marks the pixels that see a light, where one is nearer than what the ray has hit. */
 static void see_lights(const cpu_view *view, int x, int y, const trace_rays *rays,
                        trace_hit hits[TRACE_LANES], const render_surfaces *s) {
     bool found[TRACE_LANES] = { false };
     if (view->lights)
-        trace_spheres_nearest_n(view->lights, rays, found, hits);
-    for (int i = 0; i < TRACE_LANES; i++)
-        if (found[i])
-            s->seen[render_surfaces_at(s, x + i % SIDE, y + i / SIDE)] =
-                RENDER_SEES_LIGHT + hits[i].instance;
+        trace_lamps_nearest_n(view->lights, rays, found, hits);
+    for (int i = 0; i < TRACE_LANES; i++) {
+        if (!found[i])
+            continue;
+        const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
+        s->seen[at] = RENDER_SEES_LIGHT + hits[i].instance;
+        if (s->same)
+            s->same[at] = 0;
+    }
 }
 
 static void fill_square(const cpu_view *view, int x, int y, int width, int height,
@@ -70,7 +122,9 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
     trace_rays rays;
     trace_hit hits[TRACE_LANES];
     set_rays(s, x, y, width, height, &rays);
-    trace_nearest_n(view->bvh, TRACE_IMAGE, &rays, hits);
+    trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
+    if (s->weight)
+        look_through(view, x, y, rays, hits, s);
     for (int i = 0; i < TRACE_LANES; i++) {
         if (rays.length[i] < 0)
             continue;
@@ -79,6 +133,8 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
             s->hits[at] = hits[i];
         if (s->smooth)
             s->smooth[at] = 0;
+        if (s->same)
+            s->same[at] = 0;
         if (hits[i].instance == TRACE_NOTHING)
             s->seen[at] = RENDER_SEES_NOTHING;
         else {
@@ -91,7 +147,8 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
     see_lights(view, x, y, &rays, hits, s);
 }
 
-/* What the triangles of a square show, and the lights before them, by the hits that were kept. */
+/* Restores what the pixels of a square see from the kept hits, then finds the lights before
+ * them. */
 static void light_square(const cpu_view *view, int x, int y, int width, int height,
                          const render_surfaces *s) {
     trace_rays rays;

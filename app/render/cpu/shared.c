@@ -3,7 +3,7 @@
 
 #include "app/scene/vector.h"
 
-/* A normal has ten bits an axis, 1 … 1023 for -1 … 1. */
+/* A packed normal has ten bits per axis, 1 … 1023 for -1 … 1. */
 enum { BITS = 10, MASK = (1 << BITS) - 1, MIDDLE = 1 << (BITS - 1) };
 #define UNLIKE (1u << 31)
 
@@ -22,7 +22,7 @@ void cpu_shared_keep(const render_surfaces *s, size_t at, lmp_vec3 n) {
 
 /* --- pixels like their neighbors -------------------------------------------------------------- */
 
-/* How much two pixels may differ, in parts of what is brightest of them. */
+/* How much two neighboring pixels may differ, relative to their largest component. */
 static const float contrast = 0.25f;
 
 static inline float larger(float a, float b) {
@@ -37,7 +37,7 @@ static bool differ(const float *a, const float *b) {
              fabsf(a[2] - b[2]) <= most);
 }
 
-/* Where nothing is kept, nothing is to be marked. */
+/* Marks two neighbors if they differ. Where no normal is kept, nothing needs a mark. */
 static void compare(const render_surfaces *s, const float *rgba, size_t a, size_t b) {
     if (!(s->smooth[a] | s->smooth[b]))
         return;
@@ -98,6 +98,10 @@ bool cpu_shared_take(const cpu_first *f, uint32_t number, lmp_vec3 position, lmp
     if (first->seen[at] != number || !is_same(f, position, smooth, at, &s->camera))
         return false;
     s->seen[at] = number;
+    if (s->same) {
+        s->same[at] = 1;
+        return true;
+    }
     copy(first->normal, s->normal, at);
     copy(first->base, s->base, at);
     copy(first->emission, s->emission, at);
@@ -107,5 +111,7 @@ bool cpu_shared_take(const cpu_first *f, uint32_t number, lmp_vec3 position, lmp
     s->ambient[at] = first->ambient[at];
     if (s->layered && render_material_is_layered(s->materials, number))
         copy_layers(first, at, s);
+    if (s->translucent)
+        copy(first->transmitted, s->transmitted, at);
     return true;
 }

@@ -3,16 +3,16 @@
 
 #include "app/scene/vector.h"
 
-/* A point of a triangle as its material is asked about it. */
+/* A point on a triangle at which its material is evaluated. */
 typedef struct point {
     const cpu_textures *textures;
     const scene_material *material;
     const scene_vertex *corners;
     float weights[3];
-    lmp_vec3 smooth; /* the unit normal between the corners', on the front side */
+    lmp_vec3 smooth; /* the unit interpolated normal, on the front side */
     float side;      /* -1 where the back is seen */
     cpu_footprint footprint;
-    const scene_texture_use *covered; /* what the cover was found for, or NULL */
+    const scene_texture_use *covered; /* the texture that `cover` was found for, or NULL */
     cpu_cover cover;
 } point;
 
@@ -21,8 +21,8 @@ static lmp_vec3 mix(const float *a, const float *b, const float *c, const float 
                    vec_add(vec_scale(vec_load(b), weights[1]), vec_scale(vec_load(c), weights[2])));
 }
 
-/* The texture coordinates of the pixel and of those beside it: how they change along the plane,
- * from the ray of a pixel to one whose origin or direction is another. */
+/* Finds the texture coordinates of the pixel, and how they change along the triangle's plane to the
+ * neighboring pixels, whose rays differ in origin or direction. */
 static void set_footprint(const render_camera *camera, const cpu_triangle *t, lmp_vec3 d,
                           float distance, point *p) {
     const float reach = camera->parallel ? 1 : distance, facing = 1 / vec_dot(t->face, d);
@@ -42,7 +42,7 @@ static void set_footprint(const render_camera *camera, const cpu_triangle *t, lm
         }
 }
 
-/* White where there is no map. */
+/* Looks up a texture; white if there is none. */
 static void look_up(point *p, const scene_texture_use *use, float rgba[4]) {
     if (use->texture < 0) {
         rgba[0] = rgba[1] = rgba[2] = rgba[3] = 1;
@@ -60,7 +60,7 @@ static lmp_vec3 unit_of(lmp_vec3 v) {
     return vec_scale(v, 1 / sqrtf(square > 1e-20f ? square : 1e-20f));
 }
 
-/* A map of normals around n. */
+/* Applies a normal map to n. */
 static lmp_vec3 bend(point *p, lmp_vec3 n, const scene_texture_use *use, float scale) {
     float texel[4];
     if (use->texture < 0)
@@ -85,6 +85,11 @@ static void set_vector(float *const planes[3], size_t at, lmp_vec3 v) {
     planes[2][at] = v.z;
 }
 
+static void weaken(float *const planes[3], size_t at, float part) {
+    for (int c = 0; c < 3; c++)
+        planes[c][at] *= part;
+}
+
 static float unit(float x) {
     return x > 0 ? (x < 1 ? x : 1) : 0;
 }
@@ -94,9 +99,9 @@ static void set_color(float *const planes[3], size_t at, const float rgb[3]) {
         planes[c][at] = unit(rgb[c]);
 }
 
-/* Of a layered material; what is under a coat shines through it. */
-static void fill_layers(point *p, lmp_vec3 view, size_t at, const render_surfaces *s,
-                        float emission[3]) {
+/* Fills in the layers of a material. Returns the fraction of light from below its coat that the
+ * coat lets through. */
+static float fill_layers(point *p, lmp_vec3 view, size_t at, const render_surfaces *s) {
     const scene_material *m = p->material;
     float texel[4], sheen[3];
     const lmp_vec3 n = bend(p, p->smooth, &m->coat_normal_map, m->coat_normal_scale);
@@ -113,13 +118,11 @@ static void fill_layers(point *p, lmp_vec3 view, size_t at, const render_surface
     look_up(p, &m->sheen_roughness_map, texel);
     s->sheen_roughness[at] = unit(m->sheen_roughness * texel[3]);
     const lmp_coat coat = { s->coat[at], s->coat_roughness[at] };
-    const float through = coat.weight > 0 ? 1 - lmp_material_coated(&coat, n, view) : 1;
-    for (int c = 0; c < 3; c++)
-        emission[c] *= through;
     set_vector(s->coat_normal, at, vec_scale(n, p->side));
+    return coat.weight > 0 ? 1 - lmp_material_coat_reflectance(&coat, n, view) : 1;
 }
 
-/* Multiplies by the colors of the vertices, where they count. */
+/* Multiplies by the vertex colors, if the material uses them. */
 static void tint(const point *p, float rgb[3]) {
     if (!(p->material->flags & SCENE_VERTEX_COLORS))
         return;
@@ -131,24 +134,44 @@ static void tint(const point *p, float rgb[3]) {
     }
 }
 
-static void fill_base(point *p, size_t at, const render_surfaces *s) {
+/* Returns the color of transmitted light, which is taken from the base color except for leaves. */
+static lmp_vec3 transmit(point *p, float metallic, float base[3]) {
+    const scene_material *m = p->material;
+    const float matte = 1 - unit(metallic);
+    float texel[4], through[3];
+    if (m->flags & SCENE_LEAF)
+        return vec_scale(vec(unit(base[0]), unit(base[1]), unit(base[2])),
+                         SCENE_LEAF_TRANSMITS * matte);
+    look_up(p, &m->transmission_map, texel);
+    const float part = m->transmission * texel[3] * matte;
+    look_up(p, &m->transmission_color_map, texel);
+    for (int c = 0; c < 3; c++) {
+        through[c] = unit(m->transmission_color[c] * texel[c]) * part;
+        base[c] *= 1 - part;
+    }
+    return vec_load(through);
+}
+
+static void fill_base(point *p, bool translucent, size_t at, const render_surfaces *s) {
     const scene_material *m = p->material;
     float texel[4], base[3] = { m->base_color[0], m->base_color[1], m->base_color[2] };
     tint(p, base);
     look_up(p, &m->base_color_map, texel);
     for (int c = 0; c < 3; c++)
         base[c] *= texel[c];
-    set_color(s->base, at, base);
     look_up(p, &m->metallic_roughness_map, texel);
     s->metallic[at] = unit(m->metallic * texel[2]);
     s->roughness[at] = unit(m->roughness * texel[1]);
+    if (translucent)
+        set_vector(s->transmitted, at, transmit(p, s->metallic[at], base));
+    set_color(s->base, at, base);
     look_up(p, &m->specular_map, texel);
     s->specular[at] = texel[3];
     look_up(p, &m->occlusion_map, texel);
     s->ambient[at] = unit(1 + m->occlusion * (texel[0] - 1));
 }
 
-/* Which sets of coordinates the material's maps read. */
+/* Sets the material and finds which sets of coordinates its maps use. */
 static void set_material(const scene *world, uint32_t number, cpu_triangle *t) {
     t->number = number;
     t->material = &world->materials[number];
@@ -159,7 +182,7 @@ static void set_material(const scene *world, uint32_t number, cpu_triangle *t) {
     t->mapped = t->read[0] || t->read[1];
 }
 
-/* How the coordinates that are read change along the triangle's plane. */
+/* Finds how the used coordinates change along the triangle's plane. */
 static void set_slopes(cpu_triangle *t) {
     const float scale = 1 / vec_dot(t->face, t->face);
     const lmp_vec3 second = vec_scale(vec_cross(t->edges[1], t->face), scale);
@@ -189,7 +212,7 @@ void cpu_triangle_find(const scene *world, const trace_hit *hit, cpu_triangle *t
         set_slopes(t);
 }
 
-/* Of a material without maps. */
+/* Fills in the surface of a material without maps. */
 static void fill_plain(const point *p, uint32_t number, size_t at, const render_surfaces *s) {
     const scene_material *m = p->material;
     float base[3] = { m->base_color[0], m->base_color[1], m->base_color[2] };
@@ -206,7 +229,7 @@ static void fill_plain(const point *p, uint32_t number, size_t at, const render_
     set_vector(s->emission, at, vec_load(emission));
 }
 
-/* Where the ray meets the triangle, before anything is asked of its material. */
+/* Finds the hit point's weights, normal and side, which do not depend on the material. */
 static void place(const cpu_triangle *t, lmp_vec3 d, const trace_hit *hit, point *p) {
     const scene_vertex *v = t->corners;
     p->weights[0] = (float)(1 - (double)hit->u - (double)hit->v);
@@ -219,23 +242,27 @@ static void place(const cpu_triangle *t, lmp_vec3 d, const trace_hit *hit, point
 }
 
 static void fill(point *p, const cpu_triangle *t, lmp_vec3 d, float distance, bool layered,
-                 size_t at, const render_surfaces *s) {
+                 bool translucent, size_t at, const render_surfaces *s) {
     const scene_material *m = p->material;
     if (t->mapped)
         set_footprint(&s->camera, t, d, distance, p);
     s->seen[at] = t->number;
     const lmp_vec3 n = bend(p, p->smooth, &m->normal_map, m->normal_scale);
     set_vector(s->normal, at, vec_scale(n, p->side));
-    fill_base(p, at, s);
+    fill_base(p, translucent, at, s);
     float texel[4], emission[3];
     look_up(p, &m->emission_map, texel);
     for (int c = 0; c < 3; c++)
         emission[c] = m->emission[c] * texel[c];
     if (m->flags & SCENE_UNLIT)
         tint(p, emission);
-    if (layered)
-        fill_layers(p, vec_normalize(vec_scale(d, -1), d), at, s, emission);
     set_vector(s->emission, at, vec_load(emission));
+    if (!layered)
+        return;
+    const float seen = fill_layers(p, vec_normalize(vec_scale(d, -1), d), at, s);
+    weaken(s->emission, at, seen);
+    if (s->translucent)
+        weaken(s->transmitted, at, seen);
 }
 
 void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const float direction[3],
@@ -244,6 +271,8 @@ void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const
     const lmp_vec3 d = vec_load(direction);
     const scene_vertex *v = t->corners;
     const bool layered = s->layered && render_material_is_layered(s->materials, t->number);
+    const bool translucent =
+        s->translucent && render_material_is_translucent(s->materials, t->number);
     point p;
     p.textures = textures;
     p.material = t->material;
@@ -252,7 +281,9 @@ void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const
     place(t, d, hit, &p);
     const lmp_vec3 position = mix(v[0].position, v[1].position, v[2].position, p.weights);
     set_vector(s->position, at, position);
-    if (!t->mapped && !layered) {
+    if (s->translucent)
+        set_vector(s->transmitted, at, vec(0, 0, 0));
+    if (!t->mapped && !layered && !translucent) {
         fill_plain(&p, t->number, at, s);
         return;
     }
@@ -260,5 +291,5 @@ void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const
     if (s->smooth)
         cpu_shared_keep(s, at, front);
     if (!first || !cpu_shared_take(first, t->number, position, front, at, s))
-        fill(&p, t, d, hit->distance, layered, at, s);
+        fill(&p, t, d, hit->distance, layered, translucent, at, s);
 }

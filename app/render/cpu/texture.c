@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/cpu/texture.h"
 
-#include "app/trace/wide.h"
+#include "app/scene/trace/wide.h"
 
 #include <math.h>
 #include <string.h>
 
 /* --- points of a texture ---------------------------------------------------------------------- */
 
-/* Makes coordinates ones within 0 … 1 that show the same; what is not finite shows the first. */
+/* Wraps coordinates into 0 … 1; those that are not finite become 0. */
 static inline void fold(float *u, int count, uint32_t mode) {
     if (mode == SCENE_WRAP_CLAMP)
         for (int i = 0; i < count; i++)
@@ -25,8 +25,8 @@ static inline void fold(float *u, int count, uint32_t mode) {
         }
 }
 
-/* The two texels around each of some coordinates within 0 … 1, and how much of the second is there.
- * Past an edge lies the other one of a texture that repeats, and else the edge itself. */
+/* The two texels around each of several coordinates in 0 … 1, and the weight of the second. Past an
+ * edge lies the opposite edge of a texture that repeats, and else the edge itself. */
 typedef struct neighbors {
     int32_t first[CPU_TAPS], second[CPU_TAPS];
     float part[CPU_TAPS];
@@ -37,7 +37,7 @@ static inline void find_neighbors(const float *u, int count, uint32_t size, bool
     const int32_t last = (int32_t)size - 1;
     const int32_t before = repeats ? last : 0, after = repeats ? 0 : last;
     for (int i = 0; i < count; i++) {
-        const float x = u[i] * (float)size + 0.5f; /* of the second one's left edge */
+        const float x = u[i] * (float)size + 0.5f; /* the second texel is its integer part */
         const int32_t second = (int32_t)x;
         n->part[i] = x - (float)second;
         n->first[i] = second > 0 ? second - 1 : before;
@@ -45,7 +45,7 @@ static inline void find_neighbors(const float *u, int count, uint32_t size, bool
     }
 }
 
-/* Adds the texels of a level, of which `weight` counts. */
+/* Adds the texels of a level, with a total weight of `weight`. */
 static inline void cover_level(const cpu_texture *t, int number, const float *u, const float *v,
                                float weight, int count, uint32_t *texels, float *weights) {
     const cpu_level *l = &t->levels[number];
@@ -69,8 +69,8 @@ static inline void cover_level(const cpu_texture *t, int number, const float *u,
 
 /* --- what a footprint covers ------------------------------------------------------------------ */
 
-/* The logarithm to base 2 of x > 0 within 0.01, by arithmetic whose bits are the same everywhere.
- */
+/* Returns the logarithm to base 2 of x > 0 within 0.01, by arithmetic whose bits are the same
+ * everywhere. */
 static inline float log2_of(float x) {
     uint32_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -80,7 +80,7 @@ static inline float log2_of(float x) {
     return (float)exponent + (x - 1) * (1.3465553f - 0.3465553f * (x - 1));
 }
 
-/* A footprint's sides in the coordinates that the texture is read by. */
+/* A footprint's sides in the coordinates of the texture. */
 typedef struct mapped {
     float at[2], across[2], down[2];
 } mapped;
@@ -102,8 +102,8 @@ static inline float texels_along(const cpu_texture *t, const float side[2]) {
     return sqrtf(x * x + y * y);
 }
 
-/* How many points lie along a footprint's longer side, each of which stands for a square; and the
- * level of detail that suits such squares. */
+/* Returns how many points to sample along a footprint's longer side, each of which stands for a
+ * square; *lod is the level of detail for such squares. */
 static inline int count_taps(float longer, float shorter, float *lod) {
     const float ratio = longer / (shorter > 1 ? shorter : 1);
     int taps = 1;
@@ -114,7 +114,8 @@ static inline int count_taps(float longer, float shorter, float *lod) {
     return taps;
 }
 
-/* For the compiler each number of lanes is a constant. */
+/* Covers a footprint with samples; each call site has a constant number of lanes for the
+ * compiler. */
 static inline void cover_lanes(const cpu_texture *t, const mapped *m, const float side[2],
                                float lod, int lanes, cpu_cover *c) {
     const float last = (float)(t->count - 1), held = lod < last ? lod : last;
@@ -135,8 +136,8 @@ static inline void cover_lanes(const cpu_texture *t, const mapped *m, const floa
         cover_level(t, c->finer + 1, u, v, part * share, lanes, c->texels[1], c->weights[1]);
 }
 
-/* After EXT_texture_filter_anisotropic: several samples along the longer side, of levels that suit
- * what lies between them. */
+/* Follows EXT_texture_filter_anisotropic: several samples along the longer side, from levels that
+ * suit their distance. */
 TRACE_WIDE void cpu_texture_cover(const cpu_textures *textures, const scene_texture_use *use,
                                   const cpu_footprint *footprint, cpu_cover *cover) {
     const cpu_texture *t = &textures->of[use->texture];
@@ -183,7 +184,7 @@ static inline void add_colors(const float linear[2][256], const unsigned char *l
     sum[3] += a;
 }
 
-/* Four sums by name, whose channels the compiler adds as one vector. */
+/* Adds four weighted texels in named sums, so that the compiler adds the channels as one vector. */
 static inline void add_numbers(const unsigned char *level, const uint32_t *texels,
                                const float *weights, const cpu_cover *c, float *restrict sum) {
     float r = 0, g = 0, b = 0, a = 0;

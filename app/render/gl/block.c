@@ -5,6 +5,14 @@
 
 static_assert(SHARED_MAPS == SCENE_MAPS, "a block has all maps of a material");
 
+/* Sets the transmission: a leaf transmits a part of its base color, and reflects all of it. */
+static void fill_transmission(const scene_material *from, vec4 transmission) {
+    const bool leaf = from->flags & SCENE_LEAF;
+    for (int c = 0; c < 3; c++)
+        transmission[c] = leaf ? SCENE_LEAF_TRANSMITS : from->transmission_color[c];
+    transmission[3] = leaf ? -1 : from->transmission;
+}
+
 void gpu_fill_material(const scene_material *from, size_t number, shared_material *block) {
     memset(block, 0, sizeof *block);
     memcpy(block->base_color, from->base_color, sizeof from->base_color);
@@ -30,9 +38,10 @@ void gpu_fill_material(const scene_material *from, size_t number, shared_materia
     block->coat[2] = from->coat_normal_scale;
     memcpy(block->sheen, from->sheen_color, sizeof from->sheen_color);
     block->sheen[3] = from->sheen_roughness;
+    fill_transmission(from, block->transmission);
 }
 
-shared_reflector gpu_reflector(const scene_material *m) {
-    return (shared_reflector) { { m->f0[0], m->f0[1], m->f0[2], m->f90 },
-                                { -1, scene_is_layered(m) ? 1 : 0 } };
+shared_material_constants gpu_material_constants(const scene_material *m) {
+    return (shared_material_constants) { { m->f0[0], m->f0[1], m->f0[2], m->f90 },
+                                         { -1, scene_is_layered(m) ? 1 : 0 } };
 }

@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* block.h - what the shaders' blocks hold of a scene; no graphics API has a part in it. */
-#ifndef LAMPION_GPU_BLOCK_H
-#define LAMPION_GPU_BLOCK_H
+/* block.h - the contents of the shaders' blocks for a scene, independent of any graphics API. */
+#ifndef LAMPION_RENDER_GL_BLOCK_H
+#define LAMPION_RENDER_GL_BLOCK_H
 
 #include "app/scene/scene.h"
-#include "shaders/shared.h"
+#include "shaders/program/shared.h"
 
-/* Material `number` of its scene. */
+/* Fills the block of a scene's material `number`. */
 void gpu_fill_material(const scene_material *material, size_t number, shared_material *block);
 
-/* What it is all over; without a table. */
-shared_reflector gpu_reflector(const scene_material *material);
+/* Returns the material constants of a material that no table replaces. */
+shared_material_constants gpu_material_constants(const scene_material *material);
 
-/* Lights, each at its own index, and one more in `block` if some are ambient; returns how many the
- * shaders have to take. */
+/* Fills `block` with the lights, each at its own index, followed by one for all ambient light if
+ * there is any; returns how many lights the shaders read. */
 size_t gpu_take_lights(const scene_light *lights, size_t count, shared_light *block);
+
+/* Fills texels with LMP_AREA_TEXELS of each light that is an area, and its number among all. */
+void gpu_take_areas(const scene_light *lights, size_t count, vec4 *texels);
 
 #endif

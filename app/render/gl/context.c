@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
+#include "app/render/gl/crash.h"
 #include "app/render/gl/gpu.h"
-#include "app/render/gl/internal.h"
 
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -21,7 +21,7 @@ static void GLAPIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum 
     (void)id;
     (void)length;
     if (strstr(message, "GL_OUT_OF_MEMORY"))
-        return; /* whoever asked for the memory says so */
+        return; /* the code that asked for the memory reports it */
     if (type != GL_DEBUG_TYPE_ERROR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR &&
         severity != GL_DEBUG_SEVERITY_HIGH)
         return;
@@ -45,14 +45,14 @@ static void listen_to_messages(void) {
 
 /* --- the current context ---------------------------------------------------------------------- */
 
-bool gpu_context_adopt(gpu_context *context, cli_error *error) {
+bool gpu_context_adopt(gpu_context *context, base_error *error) {
     const char *renderer = (const char *)glGetString(GL_RENDERER);
     const char *version = (const char *)glGetString(GL_VERSION);
     snprintf(context->device, sizeof context->device, "%s", renderer ? renderer : "unknown");
     snprintf(context->driver, sizeof context->driver, "%s", version ? version : "unknown");
     if (epoxy_gl_version() < 45)
-        return cli_fail(error, NULL, "%s offers OpenGL %s; 4.5 is needed (%s)", context->device,
-                        context->driver, packages);
+        return base_fail(error, NULL, "%s offers OpenGL %s; 4.5 is needed (%s)", context->device,
+                         context->driver, packages);
     context->software = strstr(context->device, "llvmpipe") || strstr(context->device, "softpipe");
     context->computes_fields = !context->software;
 
@@ -64,7 +64,8 @@ bool gpu_context_adopt(gpu_context *context, cli_error *error) {
     context->size_max = side < GPU_SIZE_MAX ? side : GPU_SIZE_MAX;
     context->storage_max = (size_t)storage;
     if (blocks == 0)
-        return cli_fail(error, NULL, "%s has no storage blocks in vertex shaders", context->device);
+        return base_fail(error, NULL, "%s has no storage blocks in vertex shaders",
+                         context->device);
     listen_to_messages();
     return true;
 }
@@ -75,7 +76,7 @@ bool gpu_context_lost(void) {
 
 /* --- EGL -------------------------------------------------------------------------------------- */
 
-static bool open_display(EGLDisplay display, gpu_context *context, cli_error *error) {
+static bool open_display(EGLDisplay display, gpu_context *context, base_error *error) {
     const EGLint attributes[] = { EGL_CONTEXT_MAJOR_VERSION,
                                   4,
                                   EGL_CONTEXT_MINOR_VERSION,
@@ -86,7 +87,7 @@ static bool open_display(EGLDisplay display, gpu_context *context, cli_error *er
                                   debug_is_fatal() ? EGL_TRUE : EGL_FALSE,
                                   EGL_NONE };
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, NULL, NULL))
-        return cli_fail(error, NULL, "the EGL display does not open (%s)", packages);
+        return base_fail(error, NULL, "the EGL display does not open (%s)", packages);
     context->display = display;
     EGLContext egl = EGL_NO_CONTEXT;
     if (eglBindAPI(EGL_OPENGL_API))
@@ -96,8 +97,8 @@ static bool open_display(EGLDisplay display, gpu_context *context, cli_error *er
     if (ok)
         ok = gpu_context_adopt(context, error);
     else
-        cli_fail(error, NULL, "the EGL driver \"%s\" has no OpenGL 4.5 core context (%s)",
-                 eglQueryString(display, EGL_VENDOR), packages);
+        base_fail(error, NULL, "the EGL driver \"%s\" has no OpenGL 4.5 core context (%s)",
+                  eglQueryString(display, EGL_VENDOR), packages);
     if (!ok)
         gpu_context_destroy(context);
     return ok;
@@ -113,7 +114,7 @@ void gpu_context_destroy(gpu_context *context) {
     memset(context, 0, sizeof *context);
 }
 
-/* EGL's devices: none is no error, Mesa's surfaceless platform may still serve. */
+/* Lists EGL's devices; none is not an error, because Mesa's surfaceless platform may still work. */
 static int list_devices(const char *client, EGLDeviceEXT *devices) {
     EGLint count = 0;
     if (!strstr(client, "EGL_EXT_device_enumeration") && !strstr(client, "EGL_EXT_device_base"))
@@ -129,27 +130,27 @@ static bool is_software(EGLDeviceEXT device) {
     return extensions && strstr(extensions, "EGL_MESA_device_software");
 }
 
-static bool open_device(EGLDeviceEXT device, gpu_context *context, cli_error *error) {
+static bool open_device(EGLDeviceEXT device, gpu_context *context, base_error *error) {
     return open_display(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, NULL), context,
                         error);
 }
 
 static bool open_software(const char *client, const EGLDeviceEXT *devices, int count,
-                          gpu_context *context, cli_error *error) {
+                          gpu_context *context, base_error *error) {
     for (int i = 0; i < count; i++)
         if (is_software(devices[i]) && open_device(devices[i], context, error))
             return true;
     if (!strstr(client, "EGL_MESA_platform_surfaceless"))
-        return cli_fail(error, NULL, "no OpenGL device: EGL lists %d and no software one (%s)",
-                        count, packages);
+        return base_fail(error, NULL, "no OpenGL device: EGL lists %d and no software one (%s)",
+                         count, packages);
     return open_display(
         eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL), context,
         error);
 }
 
-/* The device whose name holds `name`; the names tried go into the message. */
+/* Opens the device whose name contains `name`; the names tried go into the message. */
 static bool open_named(const char *name, const EGLDeviceEXT *devices, int count,
-                       gpu_context *context, cli_error *error) {
+                       gpu_context *context, base_error *error) {
     char found[512] = "";
     for (int i = 0; i < count; i++) {
         if (!open_device(devices[i], context, error))
@@ -161,21 +162,21 @@ static bool open_named(const char *name, const EGLDeviceEXT *devices, int count,
                  context->device);
         gpu_context_destroy(context);
     }
-    return cli_fail(error, name, "no such OpenGL device (found: %s)", found[0] ? found : "none");
+    return base_fail(error, name, "no such OpenGL device (found: %s)", found[0] ? found : "none");
 }
 
-bool gpu_context_create(const char *device, gpu_context *context, cli_error *error) {
+bool gpu_context_create(const char *device, gpu_context *context, base_error *error) {
     memset(context, 0, sizeof *context);
-    setenv("EGL_LOG_LEVEL", "fatal", 0); /* what fails is said here, in a line */
+    setenv("EGL_LOG_LEVEL", "fatal", 0); /* failures are reported here, in one line */
     gpu_expect_crashes();
     /* epoxy would end the program if one of the libraries were missing */
     if (!dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL))
-        return cli_fail(error, NULL, "no libEGL.so.1 on this machine (%s)", packages);
+        return base_fail(error, NULL, "no libEGL.so.1 on this machine (%s)", packages);
     if (!dlopen("libGL.so.1", RTLD_LAZY) && !dlopen("libOpenGL.so.0", RTLD_LAZY))
-        return cli_fail(error, NULL, "no libGL.so.1 on this machine (%s)", packages);
+        return base_fail(error, NULL, "no libGL.so.1 on this machine (%s)", packages);
     const char *client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!client || !strstr(client, "EGL_EXT_platform_base"))
-        return cli_fail(error, NULL, "EGL has no driver, or is too old (%s)", packages);
+        return base_fail(error, NULL, "EGL has no driver, or is too old (%s)", packages);
     EGLDeviceEXT devices[DEVICES_MAX];
     const int count = list_devices(client, devices);
 
@@ -187,8 +188,8 @@ bool gpu_context_create(const char *device, gpu_context *context, cli_error *err
         if (*end)
             return open_named(device, devices, count, context, error);
         if (index < 0 || index >= count)
-            return cli_fail(error, device, "no such OpenGL device: EGL lists %d, numbered from 0",
-                            count);
+            return base_fail(error, device, "no such OpenGL device: EGL lists %d, numbered from 0",
+                             count);
         return open_device(devices[index], context, error);
     }
     for (int i = 0; i < count; i++) {

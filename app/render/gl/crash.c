@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/file/file.h"
-#include "app/render/gl/internal.h"
+#include "app/render/gl/crash.h"
+#include "app/base/file_writer.h"
 
 #include <signal.h>
 #include <stdatomic.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* Several threads of a driver may crash at once: the first one says so. */
+/* Reports the crash and ends the program; several threads of a driver may crash at once, and only
+ * the first reports. */
 static void say_and_end(int number) {
     static const char text[] =
         "lampion: OpenGL: the driver crashed, as drivers do without memory (see ulimit -v)\n";
@@ -17,7 +18,7 @@ static void say_and_end(int number) {
         pause();
     file_remove_temporaries();
     const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
-    _exit(written < 0 ? CLI_USAGE : CLI_FAILURE);
+    _exit(written < 0 ? BASE_USAGE : BASE_FAILURE);
 }
 
 void gpu_expect_crashes(void) {

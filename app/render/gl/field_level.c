@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* field_level.c - buffers of a field, or of a coarser one, as shaders read it. */
-#include "app/render/gl/internal.h"
+#include "app/render/gl/field_level.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,9 +13,7 @@ size_t gpu_node_bytes(const lmp_field_desc *desc) {
 void gpu_reserve_nodes(gpu_field_level *level, size_t bytes) {
     if (level->bytes == bytes)
         return;
-    glDeleteBuffers(1, &level->nodes);
-    glCreateBuffers(1, &level->nodes);
-    glNamedBufferStorage(level->nodes, (GLsizeiptr)bytes, NULL, 0);
+    gpu_texels_create(&level->nodes, bytes, NULL);
     level->bytes = bytes;
 }
 
@@ -29,7 +27,7 @@ static shared_field describe(const lmp_field_info *info) {
     };
 }
 
-/* Lights near a cell: those of its block, and those near everywhere. */
+/* Returns the most lights near any cell: those of its block, and those that are near everywhere. */
 static size_t longest_list(const uint32_t *begin, size_t blocks) {
     size_t longest = 0;
     for (size_t i = 0; i < blocks; i++)
@@ -37,21 +35,23 @@ static size_t longest_list(const uint32_t *begin, size_t blocks) {
     return longest + begin[blocks + 1] - begin[blocks];
 }
 
-/* What is ambient in the lights is one more of the shaders' lights: it is near everywhere, too. */
-bool gpu_upload_field(const gpu_renderer *r, const lmp_field *field, gpu_field_level *level) {
+/* Uploads a field. The lights' ambient part is one more light for shaders, and also near
+ * everywhere. */
+bool gpu_upload_field(const gpu_context *context, const gpu_lights *lights, const lmp_field *field,
+                      gpu_field_level *level) {
     const lmp_field_info info = lmp_field_describe(field);
     const int *n = info.desc.nodes;
     const size_t blocks = (size_t)(n[0] / 2) * (size_t)(n[1] / 2) * (size_t)(n[2] / 2);
-    const size_t listed = lmp_field_lists(field, 0, NULL, NULL), begins = blocks + 2;
-    const size_t more = r->shaded_lights - info.light_count;
+    const size_t listed = lmp_field_copy_lists(field, 0, NULL, NULL), begins = blocks + 2;
+    const size_t more = lights->shaded - info.light_count;
     const shared_field head = describe(&info);
     const size_t size = sizeof head + (begins + listed + 1) * sizeof(uint32_t);
-    unsigned char *block = size <= r->context.storage_max ? calloc(1, size) : NULL;
+    unsigned char *block = size <= context->storage_max ? calloc(1, size) : NULL;
     if (!block)
         return false;
     uint32_t *const begin = (uint32_t *)(void *)(block + sizeof head);
     memcpy(block, &head, sizeof head);
-    lmp_field_lists(field, listed + 1, begin, begin + begins);
+    lmp_field_copy_lists(field, listed + 1, begin, begin + begins);
     for (size_t i = 0; i < more; i++)
         begin[begins + listed + i] = (uint32_t)(info.light_count + i);
     begin[blocks + 1] += (uint32_t)more;

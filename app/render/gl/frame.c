@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What the shaders are told of a frame: its camera, sample and lights. */
-#include "app/render/gl/block.h"
-#include "app/render/gl/internal.h"
+/* Fills the shaders' block of a frame: its camera and sample. */
+#include "app/render/gl/frame.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,20 +9,19 @@ static float dot(const float a[3], const float b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Of parallel rays the depth of the farthest triangle, which is above 0. */
-float gpu_depth_reach(const gpu_renderer *r, const render_camera *camera) {
+float gpu_depth_reach(const scene *bounds, const render_camera *camera) {
     float reach = camera->near;
     for (int corner = 0; camera->parallel && corner < 8; corner++) {
         float at[3];
         for (int i = 0; i < 3; i++)
-            at[i] = (corner >> i & 1 ? r->bounds.maximum : r->bounds.minimum)[i] - camera->eye[i];
+            at[i] = (corner >> i & 1 ? bounds->maximum : bounds->minimum)[i] - camera->eye[i];
         reach = fmaxf(reach, dot(at, camera->forward));
     }
     return reach;
 }
 
-/* Rows of the clip matrix: x right, y down (row 0 of an image is its top), depth = near /
- * distance, w = distance; of parallel rays depth = 1 - distance / (2 farthest), w = 1. */
+/* Computes the rows of the clip matrix: x right, y down (row 0 of an image is its top), depth =
+ * near / distance, w = distance; for parallel rays depth = 1 - distance / (2 farthest), w = 1. */
 static void fill_clip(shared_frame *b, float half_width, float half_height) {
     const bool parallel = b->forward[3] > 0;
     float rows[4][4] = { { 0 } };
@@ -42,8 +40,8 @@ static void fill_clip(shared_frame *b, float half_width, float half_height) {
     }
 }
 
-void gpu_fill_frame(const gpu_renderer *r, const render_frame *frame, const render_camera *camera,
-                    shared_frame *block) {
+void gpu_fill_frame(const scene *bounds, const gpu_environment *around, const gpu_lights *lights,
+                    const render_frame *frame, const render_camera *camera, shared_frame *block) {
     const float half_height = 0.5f * scene_camera_height(&frame->camera, 1);
     const float half_width = half_height * (float)frame->width / (float)frame->height;
     memset(block, 0, sizeof *block);
@@ -51,14 +49,15 @@ void gpu_fill_frame(const gpu_renderer *r, const render_frame *frame, const rend
     memcpy(block->forward, camera->forward, sizeof camera->forward);
     memcpy(block->right, camera->right, sizeof camera->right);
     memcpy(block->down, camera->down, sizeof camera->down);
-    block->eye[3] = gpu_depth_reach(r, camera);
+    block->eye[3] = gpu_depth_reach(bounds, camera);
     block->forward[3] = camera->parallel ? 1 : 0;
     memcpy(block->background, frame->background, sizeof frame->background);
     block->background[3] = camera->far < INFINITY ? camera->far : 0;
-    gpu_describe_environment(r, frame, block->surroundings);
+    gpu_environment_describe(around, frame, block->surroundings);
     block->size_lights[0] = (float)frame->width;
     block->size_lights[1] = (float)frame->height;
-    block->size_lights[2] = (float)r->shaded_lights;
+    block->size_lights[2] = (float)lights->shaded;
+    block->size_lights[3] = (float)lights->area_count;
     block->jitter[0] = camera->jitter[0];
     block->jitter[1] = camera->jitter[1];
     block->jitter[2] = (float)camera->sample;
@@ -66,7 +65,7 @@ void gpu_fill_frame(const gpu_renderer *r, const render_frame *frame, const rend
     fill_clip(block, half_width, half_height);
 }
 
-/* As camera.glsl. */
+/* Computes a depth as camera.glsl does. */
 float gpu_depth_of(const shared_frame *block, float distance) {
     const float reach = block->eye[3];
     if (!(distance > 0))
@@ -74,11 +73,4 @@ float gpu_depth_of(const shared_frame *block, float distance) {
     return block->forward[3] == 0 ? reach / distance
            : distance < reach     ? 1 - 0.5f * distance / reach
                                   : 0.5f * reach / distance;
-}
-
-void gpu_upload_lights(gpu_renderer *r, const render_frame *frame) {
-    r->shaded_lights = gpu_take_lights(frame->lights, frame->light_count, r->lights);
-    if (r->shaded_lights)
-        glNamedBufferSubData(r->lights_block, 0, (GLsizeiptr)(r->shaded_lights * sizeof *r->lights),
-                             r->lights);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The G-buffer on the host: read as it is stored, decoded to surfaces (pixel.glsl does the same).
- */
-#include "app/render/gl/internal.h"
+/* The G-buffer on the CPU: read as it is stored, decoded to surfaces (pixel.glsl does the same). */
+#include "app/render/gl/gbuffer.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +8,9 @@
 
 /* --- reading ---------------------------------------------------------------------------------- */
 
-static bool allocate(gpu_gbuffer *g, int width, int height, bool layered, cli_error *error) {
+static bool allocate(gpu_gbuffer *g, int width, int height, const render_materials *materials,
+                     base_error *error) {
+    const bool layered = materials->layered;
     const size_t count = (size_t)width * (size_t)height;
     gpu_gbuffer_free(g);
     g->depth = malloc(count * sizeof *g->depth);
@@ -17,7 +18,7 @@ static bool allocate(gpu_gbuffer *g, int width, int height, bool layered, cli_er
     g->normal = malloc(count * sizeof *g->normal);
     g->roughness_kind = malloc(count * sizeof *g->roughness_kind);
     g->emission = malloc(count * sizeof *g->emission);
-    g->layers = malloc(count * sizeof *g->layers);
+    g->weights = malloc(count * sizeof *g->weights);
     g->rgba = malloc(count * sizeof *g->rgba);
     if (layered) {
         g->coat = malloc(count * sizeof *g->coat);
@@ -25,10 +26,10 @@ static bool allocate(gpu_gbuffer *g, int width, int height, bool layered, cli_er
         g->sheen = malloc(count * sizeof *g->sheen);
     }
     if (!g->depth || !g->base_metallic || !g->normal || !g->roughness_kind || !g->emission ||
-        !g->layers || !g->rgba || (layered && (!g->coat || !g->tint || !g->sheen)) ||
-        !render_surfaces_create(width, height, layered, &g->surfaces)) {
+        !g->weights || !g->rgba || (layered && (!g->coat || !g->tint || !g->sheen)) ||
+        !render_surfaces_create(width, height, materials, &g->surfaces)) {
         gpu_gbuffer_free(g);
-        return cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
+        return base_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
     }
     g->width = width;
     g->height = height;
@@ -41,7 +42,7 @@ void gpu_gbuffer_free(gpu_gbuffer *g) {
     free(g->normal);
     free(g->roughness_kind);
     free(g->emission);
-    free(g->layers);
+    free(g->weights);
     free(g->coat);
     free(g->tint);
     free(g->sheen);
@@ -50,31 +51,31 @@ void gpu_gbuffer_free(gpu_gbuffer *g) {
     memset(g, 0, sizeof *g);
 }
 
-static bool read_attachments(const gpu_renderer *r, gpu_gbuffer *g, cli_error *error) {
-    const size_t count = (size_t)r->width * (size_t)r->height;
+static bool read_attachments(const gpu_targets *t, gpu_gbuffer *g, base_error *error) {
+    const size_t count = (size_t)t->width * (size_t)t->height;
     const struct {
         GLuint texture;
         GLenum format, type;
         size_t size;
         void *to;
     } planes[] = {
-        { r->depth, GL_DEPTH_COMPONENT, GL_FLOAT, sizeof *g->depth, g->depth },
-        { r->attachments[0], GL_RGBA, GL_UNSIGNED_SHORT, sizeof *g->base_metallic,
+        { t->depth, GL_DEPTH_COMPONENT, GL_FLOAT, sizeof *g->depth, g->depth },
+        { t->attachments[0], GL_RGBA, GL_UNSIGNED_SHORT, sizeof *g->base_metallic,
           g->base_metallic },
-        { r->attachments[1], GL_RG, GL_UNSIGNED_SHORT, sizeof *g->normal, g->normal },
-        { r->attachments[2], GL_RG, GL_UNSIGNED_SHORT, sizeof *g->roughness_kind,
+        { t->attachments[1], GL_RG, GL_UNSIGNED_SHORT, sizeof *g->normal, g->normal },
+        { t->attachments[2], GL_RG, GL_UNSIGNED_SHORT, sizeof *g->roughness_kind,
           g->roughness_kind },
-        { r->attachments[3], GL_RGB, GL_FLOAT, sizeof *g->emission, g->emission },
-        { r->attachments[4], GL_RG, GL_UNSIGNED_BYTE, sizeof *g->layers, g->layers },
-        { r->attachments[5], GL_RGBA, GL_UNSIGNED_SHORT, sizeof *g->coat, g->coat },
-        { r->attachments[6], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->tint, g->tint },
-        { r->attachments[7], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->sheen, g->sheen },
+        { t->attachments[3], GL_RGBA, GL_FLOAT, sizeof *g->emission, g->emission },
+        { t->attachments[4], GL_RG, GL_UNSIGNED_BYTE, sizeof *g->weights, g->weights },
+        { t->attachments[5], GL_RGBA, GL_UNSIGNED_SHORT, sizeof *g->coat, g->coat },
+        { t->attachments[6], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->tint, g->tint },
+        { t->attachments[7], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->sheen, g->sheen },
     };
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     for (size_t i = 0; i < sizeof planes / sizeof *planes && planes[i].to; i++) {
         if (count * planes[i].size > INT32_MAX)
-            return cli_fail(error, NULL, "an image of %d x %d is too large to read back", r->width,
-                            r->height);
+            return base_fail(error, NULL, "an image of %d x %d is too large to read back", t->width,
+                             t->height);
         glGetTextureImage(planes[i].texture, 0, planes[i].format, planes[i].type,
                           (GLsizei)(count * planes[i].size), planes[i].to);
     }
@@ -83,7 +84,8 @@ static bool read_attachments(const gpu_renderer *r, gpu_gbuffer *g, cli_error *e
 
 /* --- decoding --------------------------------------------------------------------------------- */
 
-/* Positions of a row's pixels, as camera.glsl has them; what is no surface is nonsense. */
+/* Computes the positions of a row's pixels as camera.glsl does; those of pixels without a surface
+ * are meaningless. */
 static void decode_positions(const gpu_gbuffer *g, int y, float reach) {
     const render_surfaces *s = &g->surfaces;
     const render_camera *c = &s->camera;
@@ -112,7 +114,7 @@ static void decode_positions(const gpu_gbuffer *g, int y, float reach) {
     }
 }
 
-/* Octahedral: where z < 0 the triangles are folded outwards. */
+/* Decodes an octahedral normal: where z < 0 the triangles are folded outwards. */
 static inline void decode_normal(uint16_t u, uint16_t v, size_t i, float *const n[3]) {
     const float p = (float)u * (2 / 65535.0f) - 1, q = (float)v * (2 / 65535.0f) - 1;
     const float z = 1 - fabsf(p) - fabsf(q), fold = (fabsf(z) - z) * 0.5f;
@@ -131,7 +133,7 @@ static float square(float root) {
     return root * root;
 }
 
-/* Of three bytes, each a root. */
+/* Decodes three bytes, each the square root of a channel. */
 static void decode_color(const uint8_t *root, size_t i, float *const color[3]) {
     for (int c = 0; c < 3; c++)
         color[c][i] = (float)(root[c] * root[c]) / 65025;
@@ -145,6 +147,14 @@ static void decode_layers(const gpu_gbuffer *g, size_t i) {
     decode_color(g->tint[i], i, s->tint);
     decode_color(g->sheen[i], i, s->sheen);
     s->sheen_roughness[i] = (float)g->sheen[i][3] / 255;
+}
+
+/* Decodes the transmitted color, which gbuffer_pack_color has packed. */
+static void decode_transmitted(const gpu_gbuffer *g, size_t i) {
+    const render_surfaces *s = &g->surfaces;
+    const uint32_t packed = (uint32_t)g->emission[i][3];
+    const uint8_t root[3] = { (uint8_t)packed, (uint8_t)(packed >> 8), (uint8_t)(packed >> 16) };
+    decode_color(root, i, s->transmitted);
 }
 
 static uint32_t decode_kind(const gpu_gbuffer *g, size_t i) {
@@ -168,26 +178,28 @@ static void decode_row(const gpu_gbuffer *g, int y, float reach) {
         }
         s->metallic[i] = unit(g->base_metallic[i].metallic);
         s->roughness[i] = unit(g->roughness_kind[i].u);
-        s->ambient[i] = (float)g->layers[i].u / 255;
-        s->specular[i] = (float)g->layers[i].v / 255;
+        s->ambient[i] = (float)g->weights[i].u / 255;
+        s->specular[i] = (float)g->weights[i].v / 255;
         s->seen[i] = decode_kind(g, i);
         if (g->coat)
             decode_layers(g, i);
+        if (s->translucent)
+            decode_transmitted(g, i);
     }
 }
 
-bool gpu_gbuffer_read(const gpu_renderer *r, const render_camera *camera, const render_frame *frame,
-                      gpu_gbuffer *g, cli_error *error) {
-    if ((g->width != r->width || g->height != r->height) &&
-        !allocate(g, r->width, r->height, r->mesh.layered, error))
+bool gpu_gbuffer_read(const gpu_targets *t, const render_materials *materials,
+                      const environment *around, const render_camera *camera, float reach,
+                      const render_frame *frame, gpu_gbuffer *g, base_error *error) {
+    if ((g->width != t->width || g->height != t->height) &&
+        !allocate(g, t->width, t->height, materials, error))
         return false;
-    if (!read_attachments(r, g, error))
+    if (!read_attachments(t, g, error))
         return false;
     g->surfaces.camera = *camera;
     g->surfaces.frame = frame;
-    g->surfaces.materials = &r->materials;
-    g->surfaces.environment = r->environment;
-    const float reach = gpu_depth_reach(r, camera);
+    g->surfaces.materials = materials;
+    g->surfaces.environment = around;
 #pragma omp parallel for schedule(dynamic, 8)
     for (int y = 0; y < g->height; y++)
         decode_row(g, y, reach);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* lights.c - packed lights as the shaders take them. */
+/* lights.c - packed lights in the form that shaders read. */
 #include "app/render/gl/block.h"
 
 #include "src/light/packed.h"
 
-/* Any size below 0 is a Dirac's: of infinities GLSL promises nothing. */
-static float size_of(const lmp_packed_light *light) {
+/* Returns a light's size; any size below 0 means a Dirac, because GLSL guarantees nothing about
+ * infinities. */
+static float size_of(const lmpi_packed_light *light) {
     return light->size < 0 ? -1 : light->size;
 }
 
@@ -14,8 +15,8 @@ static shared_light make(lmp_vec3 at, float size, lmp_rgb color, int form) {
                             .radiance = { color.r, color.g, color.b, (float)form } };
 }
 
-/* A falloff of 0 at the outer angle and 1 at the inner one, linear in the cosine. */
-static void set_cone(const lmp_packed_light *light, float cone[4]) {
+/* Sets a falloff of 0 at the outer angle and 1 at the inner one, linear in the cosine. */
+static void set_cone(const lmpi_packed_light *light, float cone[4]) {
     const float steep = 1 / light->width;
     cone[0] = light->axis.x * steep;
     cone[1] = light->axis.y * steep;
@@ -23,16 +24,29 @@ static void set_cone(const lmp_packed_light *light, float cone[4]) {
     cone[3] = -light->outer * steep;
 }
 
-/* What it adds from every direction goes to `ambient`. */
+static_assert(SHARED_AREA_TEXELS == LMP_AREA_TEXELS, "shared.h has the number of light.h");
+
+void gpu_take_areas(const scene_light *lights, size_t count, vec4 *texels) {
+    for (size_t i = 0; i < count; i++)
+        if (lmpi_light_is_area(&lights[i].emitter)) {
+            lmp_light_copy_area_texels(&lights[i].emitter, texels[0]);
+            texels[SHARED_AREA_NUMBER][3] = lights[i].hidden ? -1 : (float)i;
+            texels += LMP_AREA_TEXELS;
+        }
+}
+
+/* Converts a light; what it adds in every direction is added to `ambient`. */
 static shared_light take_light(const scene_light *light, lmp_rgb *ambient) {
-    lmp_packed_light packed;
-    lmp_light_pack(&light->emitter, &packed);
+    lmpi_packed_light packed;
+    if (lmpi_light_is_area(&light->emitter))
+        return make(light->emitter.position, 0, light->emitter.radiance, SHARED_LIGHT_HIDDEN);
+    lmpi_light_pack(&light->emitter, &packed);
     const int seen = scene_light_is_drawn(light) ? SHARED_LIGHT_DRAWN : SHARED_LIGHT_HIDDEN;
-    const int form = packed.fixed                   ? SHARED_LIGHT_FIXED
-                     : packed.form == LMP_FORM_CONE ? SHARED_LIGHT_CONE
-                                                    : seen;
+    const int form = packed.fixed                    ? SHARED_LIGHT_FIXED
+                     : packed.form == LMPI_FORM_CONE ? SHARED_LIGHT_CONE
+                                                     : seen;
     shared_light to = make(packed.at, size_of(&packed), packed.color, form);
-    if (packed.form == LMP_FORM_CONE)
+    if (packed.form == LMPI_FORM_CONE)
         set_cone(&packed, to.cone);
     ambient->r += packed.ambient.r;
     ambient->g += packed.ambient.g;

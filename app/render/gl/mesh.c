@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
+#include "app/render/gl/mesh.h"
 #include "app/render/gl/block.h"
-#include "app/render/gl/internal.h"
+#include "app/render/gl/targets.h"
 #include "app/scene/instance.h"
 
 #include <math.h>
@@ -16,7 +17,7 @@ static GLuint upload(const void *data, size_t size) {
 
 /* --- textures --------------------------------------------------------------------------------- */
 
-/* Images are shared by all textures that show them; how they repeat is up to samplers. */
+/* Creates the samplers, which hold the wrap modes: all textures that show an image share it. */
 static void create_samplers(const gpu_context *context, gpu_mesh *mesh) {
     static const GLint modes[SCENE_WRAPS] = { [SCENE_WRAP_REPEAT] = GL_REPEAT,
                                               [SCENE_WRAP_CLAMP] = GL_CLAMP_TO_EDGE,
@@ -40,11 +41,11 @@ static GLsizei level_count(uint32_t width, uint32_t height) {
 }
 
 static bool create_texture(const gpu_context *context, const scene *world,
-                           const scene_texture *source, GLuint *texture, cli_error *error) {
+                           const scene_texture *source, GLuint *texture, base_error *error) {
     if (source->width > (uint32_t)context->size_max || source->height > (uint32_t)context->size_max)
-        return cli_fail(error, world->name, "texture %s has %u x %u texels; %s takes %d a side",
-                        source->name, source->width, source->height, context->device,
-                        context->size_max);
+        return base_fail(error, world->name, "texture %s has %u x %u texels; %s takes %d a side",
+                         source->name, source->width, source->height, context->device,
+                         context->size_max);
     glCreateTextures(GL_TEXTURE_2D, 1, texture);
     const GLsizei width = (GLsizei)source->width, height = (GLsizei)source->height;
     glTextureStorage2D(*texture, level_count(source->width, source->height),
@@ -55,7 +56,7 @@ static bool create_texture(const gpu_context *context, const scene *world,
     return true;
 }
 
-/* The order that brings together what shows the same texels by the same curve. */
+/* Orders textures so that those with the same texels and color space are adjacent. */
 static int compare_images(const void *a, const void *b) {
     const scene_texture *const *const left = a, *const *const right = b;
     const scene_texture *const x = *left, *const y = *right;
@@ -70,12 +71,12 @@ static int compare_images(const void *a, const void *b) {
 }
 
 static bool create_textures(const gpu_context *context, const scene *world, gpu_mesh *mesh,
-                            cli_error *error) {
+                            base_error *error) {
     const scene_texture **const sorted = calloc(world->texture_count + 1, sizeof *sorted);
     mesh->textures = calloc(world->texture_count + 1, sizeof *mesh->textures);
     if (!sorted || !mesh->textures) {
         free(sorted);
-        return cli_fail(error, world->name, "out of memory");
+        return base_fail(error, world->name, "out of memory");
     }
     mesh->texture_count = (GLsizei)world->texture_count;
     for (size_t i = 0; i < world->texture_count; i++)
@@ -96,7 +97,7 @@ static bool create_textures(const gpu_context *context, const scene *world, gpu_
 /* --- materials -------------------------------------------------------------------------------- */
 
 static bool is_plain(const scene_material *source) {
-    bool plain = !scene_is_layered(source) &&
+    bool plain = !scene_is_layered(source) && !scene_is_translucent(source) &&
                  !(source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND | SCENE_VERTEX_COLORS));
     for (int i = 0; i < SCENE_MAPS; i++)
         plain = plain && source->maps[i].texture < 0;
@@ -137,6 +138,7 @@ static bool create_materials(const scene *world, gpu_mesh *mesh) {
         shared_material block;
         fill_material(world, i, mesh, &mesh->materials[i], &block);
         mesh->layered = mesh->layered || mesh->materials[i].layered;
+        mesh->translucent = mesh->translucent || scene_is_translucent(&world->materials[i]);
         memcpy(blocks + i * stride, &block, sizeof block);
     }
     glCreateBuffers(1, &mesh->material_blocks);
@@ -147,30 +149,31 @@ static bool create_materials(const scene *world, gpu_mesh *mesh) {
     return true;
 }
 
-static bool create_reflectors(const scene *world, gpu_mesh *mesh) {
-    shared_reflector *all = calloc(world->material_count + 1, sizeof *all);
+static bool create_material_constants(const scene *world, gpu_mesh *mesh) {
+    shared_material_constants *all = calloc(world->material_count + 1, sizeof *all);
     if (!all)
         return false;
     for (size_t i = 0; i < world->material_count; i++)
-        all[i] = gpu_reflector(&world->materials[i]);
-    glCreateBuffers(1, &mesh->reflectors);
-    glNamedBufferStorage(mesh->reflectors, (GLsizeiptr)((world->material_count + 1) * sizeof *all),
-                         all, GL_DYNAMIC_STORAGE_BIT);
+        all[i] = gpu_material_constants(&world->materials[i]);
+    glCreateBuffers(1, &mesh->material_constants);
+    glNamedBufferStorage(mesh->material_constants,
+                         (GLsizeiptr)((world->material_count + 1) * sizeof *all), all,
+                         GL_DYNAMIC_STORAGE_BIT);
     free(all);
     return true;
 }
 
 void gpu_mesh_set_table(const gpu_mesh *mesh, size_t material, int table) {
     const float value = (float)table;
-    glNamedBufferSubData(
-        mesh->reflectors,
-        (GLintptr)(material * sizeof(shared_reflector) + offsetof(shared_reflector, table)),
-        sizeof value, &value);
+    glNamedBufferSubData(mesh->material_constants,
+                         (GLintptr)(material * sizeof(shared_material_constants) +
+                                    offsetof(shared_material_constants, table)),
+                         sizeof value, &value);
 }
 
 /* --- triangles -------------------------------------------------------------------------------- */
 
-/* The rows of the matrix, then the number. */
+/* Adds the rows of the instance's matrix, then its number. */
 static void add_instance_attributes(const gpu_mesh *mesh, GLuint array, GLuint first) {
     glVertexArrayVertexBuffer(array, 1, mesh->seen_buffer, 0, sizeof(gpu_instance));
     glVertexArrayBindingDivisor(array, 1, 1);
@@ -209,7 +212,7 @@ static GLuint create_vertex_array(const gpu_mesh *mesh) {
     return array;
 }
 
-/* Puts an instance into its draw. */
+/* Adds an instance to its draw. */
 static void place_instance(const scene *world, size_t number, gpu_draw *draw, gpu_mesh *mesh) {
     const scene_instance *placed = &world->instances[number];
     const size_t at = draw->first + draw->count;
@@ -222,12 +225,13 @@ static void place_instance(const scene *world, size_t number, gpu_draw *draw, gp
     draw->count++;
 }
 
-/* Which of two draws an instance belongs to. */
+/* Returns which possible draw an instance belongs to: that of its mesh, mirrored or not. */
 static size_t draw_of(const scene_instance *placed) {
     return 2 * (size_t)placed->mesh + scene_instance_mirrors(placed);
 }
 
-/* Those that have instances, with room for them; `of` says where each of the possible ones is. */
+/* Lays out the draws that have instances, with room for these; of[i] becomes the number of possible
+ * draw i. */
 static void lay_out_draws(const scene *world, gpu_mesh *mesh, size_t *of) {
     size_t first = 0;
     for (int masked = 0; masked < 2; masked++)
@@ -264,24 +268,24 @@ static bool create_draws(const scene *world, gpu_mesh *mesh) {
 }
 
 bool gpu_mesh_create(const gpu_context *context, const scene *world, gpu_mesh *mesh,
-                     cli_error *error) {
+                     base_error *error) {
     memset(mesh, 0, sizeof *mesh);
     if (!create_textures(context, world, mesh, error))
         return false;
     create_samplers(context, mesh);
     if (world->material_count > SHARED_MATERIALS_MAX)
-        return cli_fail(error, world->name, "has %zu materials: the shaders tell %d apart",
-                        world->material_count, SHARED_MATERIALS_MAX);
-    if (!create_materials(world, mesh) || !create_reflectors(world, mesh) ||
+        return base_fail(error, world->name, "has %zu materials: the shaders tell %d apart",
+                         world->material_count, SHARED_MATERIALS_MAX);
+    if (!create_materials(world, mesh) || !create_material_constants(world, mesh) ||
         !create_draws(world, mesh))
-        return cli_fail(error, world->name, "out of memory");
+        return base_fail(error, world->name, "out of memory");
     mesh->vertices = upload(world->vertices, world->vertex_count * sizeof *world->vertices);
     mesh->indices = upload(world->indices, world->index_count * sizeof *world->indices);
     glCreateBuffers(1, &mesh->seen_buffer);
     mesh->vertex_array = create_vertex_array(mesh);
     if (glGetError() == GL_OUT_OF_MEMORY)
-        return cli_fail(error, world->name, "the scene does not fit the memory of %s",
-                        context->device);
+        return base_fail(error, world->name, "the scene does not fit the memory of %s",
+                         context->device);
     return true;
 }
 
@@ -291,9 +295,9 @@ void gpu_mesh_destroy(gpu_mesh *mesh) {
     glDeleteBuffers(1, &mesh->indices);
     glDeleteBuffers(1, &mesh->seen_buffer);
     glDeleteBuffers(1, &mesh->material_blocks);
-    glDeleteBuffers(1, &mesh->reflectors);
+    glDeleteBuffers(1, &mesh->material_constants);
     glDeleteSamplers(SCENE_WRAPS * SCENE_WRAPS, mesh->samplers);
-    if (mesh->textures) /* a name that comes twice is passed over */
+    if (mesh->textures) /* OpenGL ignores a name that occurs a second time */
         glDeleteTextures(mesh->texture_count, mesh->textures);
     free(mesh->textures);
     free(mesh->materials);
@@ -306,8 +310,8 @@ void gpu_mesh_destroy(gpu_mesh *mesh) {
 
 /* --- drawing ---------------------------------------------------------------------------------- */
 
-/* False if the box is wholly outside one of the planes w ± x >= 0, w ± y >= 0, w - z >= 0 (near).
- */
+/* Returns false if the box is entirely outside one of the planes w ± x >= 0, w ± y >= 0, w - z >= 0
+ * (near). */
 static bool may_be_seen(const mat4 m, const gpu_box *box) {
     static const float planes[5][4] = {
         { 1, 0, 0, 1 }, { -1, 0, 0, 1 }, { 0, 1, 0, 1 }, { 0, -1, 0, 1 }, { 0, 0, -1, 1 }
@@ -336,14 +340,14 @@ static GLuint program_of(const gpu_surfaces *programs, const gpu_material *mater
     return material->masked ? programs->masked : programs->opaque;
 }
 
-/* Only what is layered writes to the attachments of layers. */
+/* Enables the attachments of layers for layered materials only. */
 static void choose_attachments(bool layered) {
     const GLboolean write = layered ? GL_TRUE : GL_FALSE;
     for (GLuint i = GPU_ATTACHMENTS_PLAIN; i < GPU_ATTACHMENTS; i++)
         glColorMaski(i, write, write, write, write);
 }
 
-/* Collects the instances that may be seen, draw by draw. */
+/* Collects the instances that may be visible, draw by draw. */
 static void find_seen(const gpu_mesh *mesh, const mat4 clip_from_world) {
     size_t count = 0;
     for (size_t i = 0; i < mesh->draw_count; i++) {
@@ -385,7 +389,7 @@ void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_s
             else
                 glEnable(GL_CULL_FACE);
         }
-        glFrontFace(draw->mirrors ? GL_CCW : GL_CW); /* y runs down */
+        glFrontFace(draw->mirrors ? GL_CCW : GL_CW); /* y runs downward, which swaps the winding */
         glDrawElementsInstancedBaseInstance(GL_TRIANGLES, (GLsizei)draw->index_count,
                                             GL_UNSIGNED_INT,
                                             (const void *)(4 * (uintptr_t)draw->first_index),

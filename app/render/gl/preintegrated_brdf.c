@@ -1,40 +1,38 @@
 /* SPDX-License-Identifier: MIT */
-/* Preintegrated BRDFs for shaders/preintegrated_brdf.glsl: all slices in one texture, all numbers
- * in one buffer. */
-#include "app/render/gl/internal.h"
+/* Preintegrated BRDFs for shaders/lampion/preintegrated_brdf.glsl: all slices in one texture, all
+ * parameters in one buffer. */
+#include "app/render/gl/preintegrated_brdf.h"
 #include "app/render/gl/shelves.h"
 
-#include "shaders/preintegrated_lookup.h"
+#include "shaders/lampion/preintegrated_lookup.h"
+#include "shaders/program/shared.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { ATLAS_WIDTH = 4096 };
 
-bool gpu_has_preintegrated_brdf(const gpu_renderer *r) {
-    for (int t = 0; t < r->materials.table_count; t++)
-        if (r->materials.brdfs[t])
+bool gpu_preintegrated_brdfs_exist(const render_materials *materials) {
+    for (int t = 0; t < materials->table_count; t++)
+        if (materials->brdfs[t])
             return true;
     return false;
 }
 
-void gpu_set_preintegrated_brdfs(gpu_renderer *r, const lmp_preintegrated_brdf *const *brdfs) {
-    for (int t = 0; t < RENDER_TABLES_MAX; t++)
-        r->materials.brdfs[t] = brdfs && t < r->materials.table_count ? brdfs[t] : NULL;
-    glDeleteBuffers(1, &r->brdf_block);
-    glDeleteTextures(1, &r->brdf_texels);
-    glDeleteBuffers(1, &r->tables_buffer);
-    r->brdf_block = r->brdf_texels = r->tables_buffer = 0;
+void gpu_preintegrated_brdfs_free(gpu_preintegrated_brdfs *own) {
+    glDeleteBuffers(1, &own->block);
+    glDeleteTextures(1, &own->texels);
+    own->block = own->texels = 0;
 }
 
 /* --- the texture ------------------------------------------------------------------------------ */
 
-/* A slice and where its first texel lies. */
+/* A slice, and the position of its first texel. */
 typedef struct placement {
     const lmp_preintegrated_brdf_slice *slice;
     const int16_t *texels;
     gpu_corner corner;
-    size_t number; /* of its numbers in the buffer */
+    size_t number; /* index of its parameters in the buffer */
 } placement;
 
 static int taller_first(const void *a, const void *b) {
@@ -44,7 +42,7 @@ static int taller_first(const void *a, const void *b) {
     return p->number > q->number ? 1 : -1;
 }
 
-/* On shelves of slices about as tall; returns the height. */
+/* Places slices of similar height on shelves; returns the total height. */
 static GLsizei lay_out(placement *placements, size_t count) {
     gpu_shelves shelves = { .width = ATLAS_WIDTH };
     qsort(placements, count, sizeof *placements, taller_first);
@@ -70,7 +68,7 @@ static float *append(float *to, const float *values, size_t count) {
     return to + count;
 }
 
-/* All numbers but the slices'; returns the index of those. */
+/* Writes all parameters but the slices'; returns where those begin. */
 static float *write_header(const lmp_preintegrated_brdf_info *info, float *to) {
     const float header[] = { [LMP_LOOKUP_VIEW_COUNT] = (float)info->view_count,
                              [LMP_LOOKUP_CAP_COUNT] = (float)info->cap_count,
@@ -107,35 +105,35 @@ static void write_slices(const placement *placements, size_t count, float *numbe
 
 /* --- upload ----------------------------------------------------------------------------------- */
 
-static bool upload_texels(gpu_renderer *r, const placement *placements, size_t count,
-                          GLsizei height, cli_error *error) {
+static bool upload_texels(GLuint *texture, const placement *placements, size_t count,
+                          GLsizei height, base_error *error) {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (height > largest)
-        return cli_fail(error, NULL,
-                        "the preintegrated materials are too large for the GPU "
-                        "(fewer --bands, or --method coefficients)");
-    glCreateTextures(GL_TEXTURE_2D, 1, &r->brdf_texels);
-    glTextureStorage2D(r->brdf_texels, 1, GL_RGBA16_SNORM, ATLAS_WIDTH, height);
-    glTextureParameteri(r->brdf_texels, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTextureParameteri(r->brdf_texels, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        return base_fail(error, NULL,
+                         "the preintegrated materials are too large for the GPU "
+                         "(fewer --bands, or --method coefficients)");
+    glCreateTextures(GL_TEXTURE_2D, 1, texture);
+    glTextureStorage2D(*texture, 1, GL_RGBA16_SNORM, ATLAS_WIDTH, height);
+    glTextureParameteri(*texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(*texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (size_t i = 0; i < count; i++)
-        glTextureSubImage2D(r->brdf_texels, 0, placements[i].corner.x, placements[i].corner.y,
+        glTextureSubImage2D(*texture, 0, placements[i].corner.x, placements[i].corner.y,
                             (GLsizei)placements[i].slice->columns,
                             (GLsizei)placements[i].slice->rows, GL_RGB, GL_SHORT,
                             placements[i].texels);
     return true;
 }
 
-/* Every BRDF's numbers, and the slices that are to be placed. */
-static void list_slices(const gpu_renderer *r, placement *placements, float *numbers) {
+/* Writes every BRDF's parameters, and lists the slices to be placed. */
+static void list_slices(const render_materials *materials, placement *placements, float *numbers) {
     float *to = numbers + RENDER_TABLES_MAX;
-    for (int t = 0; t < r->materials.table_count; t++) {
-        if (!r->materials.brdfs[t])
+    for (int t = 0; t < materials->table_count; t++) {
+        if (!materials->brdfs[t])
             continue;
         const lmp_preintegrated_brdf_info info =
-            lmp_preintegrated_brdf_describe(r->materials.brdfs[t]);
+            lmp_preintegrated_brdf_describe(materials->brdfs[t]);
         numbers[t] = (float)(to - numbers);
         to = write_header(&info, to);
         for (size_t i = 0; i < slice_count(&info); i++, to += LMP_LOOKUP_SLICE)
@@ -145,12 +143,13 @@ static void list_slices(const gpu_renderer *r, placement *placements, float *num
     }
 }
 
-static bool upload(gpu_renderer *r, cli_error *error) {
+static bool upload(gpu_preintegrated_brdfs *own, const render_materials *materials,
+                   base_error *error) {
     size_t slices = 0, count = RENDER_TABLES_MAX;
-    for (int t = 0; t < r->materials.table_count; t++)
-        if (r->materials.brdfs[t]) {
+    for (int t = 0; t < materials->table_count; t++)
+        if (materials->brdfs[t]) {
             const lmp_preintegrated_brdf_info info =
-                lmp_preintegrated_brdf_describe(r->materials.brdfs[t]);
+                lmp_preintegrated_brdf_describe(materials->brdfs[t]);
             slices += slice_count(&info);
             count += number_count(&info);
         }
@@ -158,27 +157,28 @@ static bool upload(gpu_renderer *r, cli_error *error) {
     float *numbers = calloc(count, sizeof *numbers);
     bool ok = placements && numbers;
     if (ok) {
-        list_slices(r, placements, numbers);
+        list_slices(materials, placements, numbers);
         const GLsizei height = lay_out(placements, slices);
         write_slices(placements, slices, numbers);
-        ok = upload_texels(r, placements, slices, height, error);
+        ok = upload_texels(&own->texels, placements, slices, height, error);
     } else
-        cli_fail(error, NULL, "out of memory");
+        base_fail(error, NULL, "out of memory");
     if (ok) {
-        glCreateBuffers(1, &r->brdf_block);
-        glNamedBufferStorage(r->brdf_block, (GLsizeiptr)(count * sizeof *numbers), numbers, 0);
+        glCreateBuffers(1, &own->block);
+        glNamedBufferStorage(own->block, (GLsizeiptr)(count * sizeof *numbers), numbers, 0);
     }
     free(placements);
     free(numbers);
     return ok;
 }
 
-bool gpu_bind_preintegrated_brdf(gpu_renderer *r, cli_error *error) {
-    if (!gpu_has_preintegrated_brdf(r))
+bool gpu_preintegrated_brdfs_bind(gpu_preintegrated_brdfs *own, const render_materials *materials,
+                                  base_error *error) {
+    if (!gpu_preintegrated_brdfs_exist(materials))
         return true;
-    if (!r->brdf_block && !upload(r, error))
+    if (!own->block && !upload(own, materials, error))
         return false;
-    glBindTextureUnit(SHARED_PREINTEGRATED_BRDF_TEXELS, r->brdf_texels);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_PREINTEGRATED_BRDF, r->brdf_block);
+    glBindTextureUnit(SHARED_PREINTEGRATED_BRDF_TEXELS, own->texels);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_PREINTEGRATED_BRDF, own->block);
     return true;
 }

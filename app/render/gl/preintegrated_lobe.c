@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* A preintegrated lobe for shaders/preintegrated_lobe.glsl: its cells side by side in one texture.
- */
-#include "app/render/gl/internal.h"
+/* A preintegrated lobe for shaders/lampion/preintegrated_lobe.glsl: its cells side by side in one
+ * texture. */
+#include "app/render/gl/preintegrated_lobe.h"
 #include "app/render/gl/shelves.h"
 
-#include "shaders/preintegrated_lookup.h"
+#include "shaders/lampion/preintegrated_lookup.h"
+#include "shaders/program/shared.h"
 
 #include <string.h>
 
@@ -13,7 +14,7 @@ enum { ATLAS_WIDTH = 2048 };
 static_assert(SHARED_PREINTEGRATED_LOBE_REMAP == LMP_LOOKUP_REMAP_COUNT,
               "the block holds the remap");
 
-/* Where each cell's first pair lies; returns the height. */
+/* Finds the position of each cell's first pair; returns the height. */
 static GLsizei lay_out(const lmp_preintegrated_lobe_info *info, gpu_corner *corners) {
     gpu_shelves shelves = { .width = ATLAS_WIDTH };
     for (uint32_t i = 0; i < info->cell_count; i++)
@@ -52,22 +53,27 @@ static void upload_block(const lmp_preintegrated_lobe_info *info, const gpu_corn
     glNamedBufferStorage(*buffer, sizeof block, &block, 0);
 }
 
-bool gpu_bind_preintegrated_lobe(gpu_renderer *r, const lmp_preintegrated_lobe *lobe,
-                                 cli_error *error) {
+bool gpu_preintegrated_lobe_bind(gpu_preintegrated_lobe *own, const lmp_preintegrated_lobe *lobe,
+                                 base_error *error) {
     const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(lobe);
-    if (r->lobe != lobe || r->lobe_bands != info.bands || r->lobe_window != info.window) {
+    if (own->lobe != lobe || own->bands != info.bands || own->window != info.window) {
         gpu_corner corners[SHARED_PREINTEGRATED_LOBE_CELLS];
         if (info.cell_count > SHARED_PREINTEGRATED_LOBE_CELLS)
-            return cli_fail(error, NULL, "a preintegrated lobe of %u cells: the shaders take %d",
-                            info.cell_count, SHARED_PREINTEGRATED_LOBE_CELLS);
+            return base_fail(error, NULL, "a preintegrated lobe of %u cells: the shaders take %d",
+                             info.cell_count, SHARED_PREINTEGRATED_LOBE_CELLS);
         const GLsizei height = lay_out(&info, corners);
-        upload_cells(&info, corners, height, &r->lobe_pairs);
-        upload_block(&info, corners, height, &r->lobe_block);
-        r->lobe = lobe;
-        r->lobe_bands = info.bands;
-        r->lobe_window = info.window;
+        upload_cells(&info, corners, height, &own->pairs);
+        upload_block(&info, corners, height, &own->block);
+        own->lobe = lobe;
+        own->bands = info.bands;
+        own->window = info.window;
     }
-    glBindTextureUnit(SHARED_PREINTEGRATED_LOBE_PAIRS, r->lobe_pairs);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_PREINTEGRATED_LOBE, r->lobe_block);
+    glBindTextureUnit(SHARED_PREINTEGRATED_LOBE_PAIRS, own->pairs);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_PREINTEGRATED_LOBE, own->block);
     return true;
+}
+
+void gpu_preintegrated_lobe_free(gpu_preintegrated_lobe *own) {
+    glDeleteBuffers(1, &own->block);
+    glDeleteTextures(1, &own->pairs);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/gl/internal.h"
+#include "app/render/gl/program.h"
+#include "app/render/gl/gpu.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +8,7 @@
 
 enum { INCLUDES_MAX = 32 };
 
-/* A source with its #include lines resolved; every file once. */
+/* A source with its #include lines resolved, every file once. */
 typedef struct unit {
     char *text;
     size_t length, capacity;
@@ -61,7 +62,7 @@ static bool append_file(unit *u, const char *name, size_t name_length) {
     return true;
 }
 
-static GLuint compile(const gpu_stage *stage, const char *defines, cli_error *error) {
+static GLuint compile(const gpu_stage *stage, const char *defines, base_error *error) {
     static const char preamble[] = "#version 450 core\n#define LAMPION_SHADER\n";
     unit u = { 0 };
     GLuint shader = 0;
@@ -76,18 +77,18 @@ static GLuint compile(const gpu_stage *stage, const char *defines, cli_error *er
         if (!ok) {
             char log[512];
             glGetShaderInfoLog(shader, sizeof log, NULL, log);
-            cli_fail(error, stage->file, "the OpenGL driver refuses this shader: %s", log);
+            base_fail(error, stage->file, "the OpenGL driver refuses this shader: %s", log);
             glDeleteShader(shader);
             shader = 0;
         }
     } else {
-        cli_fail(error, stage->file, "out of memory");
+        base_fail(error, stage->file, "out of memory");
     }
     free(u.text);
     return shader;
 }
 
-GLuint gpu_program(const gpu_stage *stages, int count, const char *defines, cli_error *error) {
+GLuint gpu_program(const gpu_stage *stages, int count, const char *defines, base_error *error) {
     GLuint program = glCreateProgram();
     bool complete = true;
     for (int i = 0; i < count && complete; i++) {
@@ -105,7 +106,7 @@ GLuint gpu_program(const gpu_stage *stages, int count, const char *defines, cli_
         if (!ok) {
             char log[512];
             glGetProgramInfoLog(program, sizeof log, NULL, log);
-            cli_fail(error, stages[0].file, "the OpenGL driver does not link it: %s", log);
+            base_fail(error, stages[0].file, "the OpenGL driver does not link it: %s", log);
         }
     }
     if (!ok) {

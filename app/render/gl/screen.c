@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What a window shows: images of renderers, and drawings over them. */
-#include "app/render/gl/internal.h"
+#include "app/render/gl/program.h"
+#include "app/render/gl/state.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -17,18 +18,18 @@ typedef struct screen_drawing {
 
 struct gpu_screen {
     GLuint compose, draw, empty_array;
-    screen_side sides[2], copy; /* copy: to be read back */
+    screen_side sides[2], copy; /* copy: for reading back */
     screen_drawing drawings[GPU_DRAWINGS_MAX];
 };
 
-gpu_screen *gpu_screen_create(cli_error *error) {
+gpu_screen *gpu_screen_create(base_error *error) {
     const gpu_stage compose[] = { { GL_VERTEX_SHADER, "screen.vert" },
                                   { GL_FRAGMENT_SHADER, "compose.frag" } };
     const gpu_stage draw[] = { { GL_VERTEX_SHADER, "screen.vert" },
                                { GL_FRAGMENT_SHADER, "drawing.frag" } };
     gpu_screen *s = calloc(1, sizeof *s);
     if (!s) {
-        cli_fail(error, NULL, "out of memory");
+        base_fail(error, NULL, "out of memory");
         return NULL;
     }
     glCreateVertexArrays(1, &s->empty_array);
@@ -79,7 +80,7 @@ static void size_side(screen_side *side, int width, int height) {
 
 void gpu_screen_take(gpu_screen *s, gpu_renderer *renderer, int side,
                      const image_display *display) {
-    size_side(&s->sides[side], renderer->width, renderer->height);
+    size_side(&s->sides[side], renderer->targets.width, renderer->targets.height);
     gpu_present(renderer, s->sides[side].framebuffer, display, true);
 }
 
@@ -108,7 +109,7 @@ static void compose(gpu_screen *s, const gpu_layout *layout, GLuint framebuffer,
 
 void gpu_screen_show(gpu_screen *s, const gpu_layout *layout) {
     const screen_side *side = &s->sides[0];
-    if (layout->split == GPU_SPLIT_NONE && side->texture) { /* cheaper than a shader */
+    if (layout->split == GPU_SPLIT_NONE && side->texture) { /* a blit is cheaper than a shader */
         glBlitNamedFramebuffer(side->framebuffer, 0, 0, 0, side->width, side->height, 0,
                                layout->height, layout->width, 0, GL_COLOR_BUFFER_BIT, GL_LINEAR);
         return;
@@ -117,11 +118,11 @@ void gpu_screen_show(gpu_screen *s, const gpu_layout *layout) {
 }
 
 bool gpu_screen_read(gpu_screen *s, const gpu_layout *layout, unsigned char *rgb8,
-                     cli_error *error) {
+                     base_error *error) {
     const size_t size = 3 * (size_t)layout->width * (size_t)layout->height;
     if (size > INT32_MAX)
-        return cli_fail(error, NULL, "an image of %d x %d is too large to read back", layout->width,
-                        layout->height);
+        return base_fail(error, NULL, "an image of %d x %d is too large to read back",
+                         layout->width, layout->height);
     size_side(&s->copy, layout->width, layout->height);
     compose(s, layout, s->copy.framebuffer, false);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

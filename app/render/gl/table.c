@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Tables of BRDFs for shaders/table.glsl. */
-#include "app/render/gl/internal.h"
+/* Tables of BRDFs for shaders/program/table.glsl. */
+#include "app/render/gl/table.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows and columns that linear interpolation reads. */
+/* Rows and columns of views, between which shaders interpolate. */
 enum { ROWS = 1024, ANISOTROPIC_ROWS = 192, COLUMNS_OF_AZIMUTH = 4 };
 
-/* Vectors that the buffer of all may hold. */
+/* The most vectors in the buffer of all tables. */
 enum { VALUES_MAX = 1 << 23 };
 
 static gpu_table_shape shape_of(const lmp_brdf_table_info *info) {
@@ -18,7 +18,7 @@ static gpu_table_shape shape_of(const lmp_brdf_table_info *info) {
     return (gpu_table_shape) { ANISOTROPIC_ROWS, (size_t)(COLUMNS_OF_AZIMUTH * info->azimuths) };
 }
 
-/* So many bands of one view as vec4s in the order of the shader. */
+/* Converts so many bands of one view to vec4s in the shader's order. */
 static void fill_view(const lmp_brdf_table_info *info, int bands, bool full, const float *rgb,
                       vec4 *to) {
     for (int l = 0; l < bands && l < info->bands; l++)
@@ -39,71 +39,74 @@ bool gpu_table_fill(const lmp_brdf_table *table, gpu_table_shape shape, int band
         for (size_t row = 0; row < shape.rows; row++, values += stride) {
             const double theta = 1.5707963267949 * (double)row / (double)(shape.rows - 1);
             const double phi = 6.2831853071796 * (double)column / (double)shape.columns;
-            lmp_brdf_table_view(table, (float)cos(theta), (float)phi, rgb);
+            lmp_brdf_table_interpolate(table, (float)cos(theta), (float)phi, rgb);
             fill_view(&info, bands, full, rgb, values);
         }
     free(rgb);
     return true;
 }
 
-/* Whether frames of a method sum table t by its bands: under lights, or under an environment. */
-static bool by_bands(const gpu_renderer *r, method_kind method, int t) {
-    return !(method_table[method].reads & METHOD_READS_PREINTEGRATED) || !r->materials.brdfs[t] ||
-           environment_shines(r->environment);
+/* Whether frames of a method sum table t by its bands, for lights or for an environment. */
+static bool by_bands(const render_materials *materials, const environment *around,
+                     method_kind method, int t) {
+    return !(method_table[method].reads & METHOD_READS_PREINTEGRATED) || !materials->brdfs[t] ||
+           environment_shines(around);
 }
 
-void gpu_forget_tables(gpu_renderer *r) {
-    glDeleteBuffers(1, &r->tables_buffer);
-    r->tables_buffer = 0;
+void gpu_tables_free(gpu_tables *own) {
+    gpu_texels_free(&own->values);
 }
 
-int gpu_tables_by_bands(const gpu_renderer *r, method_kind method) {
+int gpu_tables_by_bands(const render_materials *materials, const environment *around,
+                        method_kind method) {
     int tables = 0;
-    for (int t = 0; t < r->materials.table_count; t++)
-        if (by_bands(r, method, t)) {
-            const int one = lmp_brdf_table_describe(r->materials.tables[t]).mirrored ? 1 : 2;
+    for (int t = 0; t < materials->table_count; t++)
+        if (by_bands(materials, around, method, t)) {
+            const int one = lmp_brdf_table_describe(materials->tables[t]).mirrored ? 1 : 2;
             tables = one > tables ? one : tables;
         }
     return tables;
 }
 
-/* Vectors of the buffer: one a table, then the values of those summed by bands. */
-static size_t count_values(const gpu_renderer *r, method_kind method, size_t stride) {
-    size_t total = (size_t)r->materials.table_count;
-    for (int t = 0; t < r->materials.table_count; t++) {
-        const lmp_brdf_table_info info = lmp_brdf_table_describe(r->materials.tables[t]);
+/* Counts the buffer's vectors: one per table, then the values of tables that are summed by
+ * bands. */
+static size_t count_values(const render_materials *materials, const environment *around,
+                           method_kind method, size_t stride) {
+    size_t total = (size_t)materials->table_count;
+    for (int t = 0; t < materials->table_count; t++) {
+        const lmp_brdf_table_info info = lmp_brdf_table_describe(materials->tables[t]);
         const gpu_table_shape shape = shape_of(&info);
-        total += by_bands(r, method, t) ? shape.rows * shape.columns * stride : 0;
+        total += by_bands(materials, around, method, t) ? shape.rows * shape.columns * stride : 0;
     }
     return total;
 }
 
-static bool fill_tables(const gpu_renderer *r, method_kind method, int bands, bool full,
-                        size_t stride, vec4 *values) {
-    size_t first = (size_t)r->materials.table_count;
-    for (int t = 0; t < r->materials.table_count; t++) {
-        const lmp_brdf_table_info info = lmp_brdf_table_describe(r->materials.tables[t]);
+static bool fill_tables(const render_materials *materials, const environment *around,
+                        method_kind method, int bands, bool full, size_t stride, vec4 *values) {
+    size_t first = (size_t)materials->table_count;
+    for (int t = 0; t < materials->table_count; t++) {
+        const lmp_brdf_table_info info = lmp_brdf_table_describe(materials->tables[t]);
         const gpu_table_shape shape = shape_of(&info);
-        if (!by_bands(r, method, t))
+        if (!by_bands(materials, around, method, t))
             continue;
         values[t][0] = (float)first;
         values[t][1] = (float)shape.rows;
         values[t][2] = (float)shape.columns;
-        if (!gpu_table_fill(r->materials.tables[t], shape, bands, full, stride, values + first))
+        if (!gpu_table_fill(materials->tables[t], shape, bands, full, stride, values + first))
             return false;
         first += shape.rows * shape.columns * stride;
     }
     return true;
 }
 
-static bool too_large(cli_error *error) {
-    return cli_fail(error, NULL, "the tables of the materials are too large (fewer --bands)");
+static bool too_large(base_error *error) {
+    return base_fail(error, NULL, "the tables of the materials are too large (fewer --bands)");
 }
 
-bool gpu_tables_fit(const gpu_renderer *r, method_kind method, const lmp_brdf_table_info *tables,
-                    int count, cli_error *error) {
-    const bool preintegrates = method_table[method].reads & METHOD_READS_PREINTEGRATED &&
-                               !environment_shines(r->environment);
+bool gpu_tables_would_fit(const environment *around, method_kind method,
+                          const lmp_brdf_table_info *tables, int count, base_error *error) {
+    const bool preintegrates =
+        method_table[method].reads & METHOD_READS_PREINTEGRATED && !environment_shines(around);
     size_t views = 0;
     bool mirrored = true;
     for (int t = 0; t < count; t++) {
@@ -118,34 +121,23 @@ bool gpu_tables_fit(const gpu_renderer *r, method_kind method, const lmp_brdf_ta
     return (size_t)count + views * stride < VALUES_MAX || too_large(error);
 }
 
-bool gpu_bind_tables(gpu_renderer *r, method_kind method, int bands, cli_error *error) {
-    const int tables = gpu_tables_by_bands(r, method);
-    if (!r->tables_buffer || r->tables_method != method || r->tables_bands != bands) {
+bool gpu_tables_bind(gpu_tables *own, const render_materials *materials, const environment *around,
+                     method_kind method, int bands, base_error *error) {
+    const int tables = gpu_tables_by_bands(materials, around, method);
+    if (!own->values.buffer || own->method != method || own->bands != bands) {
         const size_t stride = tables == 2 ? LMP_SH_COUNT(bands) : LMP_SH_HALF_COUNT(bands);
-        const size_t total = count_values(r, method, stride);
+        const size_t total = count_values(materials, around, method, stride);
         vec4 *values = total < VALUES_MAX ? calloc(total + 1, sizeof *values) : NULL;
-        if (!values || !fill_tables(r, method, bands, tables == 2, stride, values)) {
+        if (!values ||
+            !fill_tables(materials, around, method, bands, tables == 2, stride, values)) {
             free(values);
             return too_large(error);
         }
-        glDeleteBuffers(1, &r->tables_buffer);
-        glCreateBuffers(1, &r->tables_buffer);
-        glNamedBufferStorage(r->tables_buffer, (GLsizeiptr)((total + 1) * sizeof *values), values,
-                             0);
-        r->tables_method = method;
-        r->tables_bands = bands;
+        gpu_texels_create(&own->values, (total + 1) * sizeof *values, values);
+        own->method = method;
+        own->bands = bands;
         free(values);
     }
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_TABLES, r->tables_buffer);
-    return true;
-}
-
-bool gpu_set_tables(gpu_renderer *r, const lmp_brdf_table *const *tables, int count,
-                    const int *uses, cli_error *error) {
-    if (!render_materials_set_tables(&r->materials, tables, count, uses, error))
-        return false;
-    gpu_set_preintegrated_brdfs(r, NULL);
-    for (size_t i = 0; i < r->materials.count; i++)
-        gpu_mesh_set_table(&r->mesh, i, uses[i]);
+    gpu_texels_bind(&own->values, SHARED_TABLES);
     return true;
 }

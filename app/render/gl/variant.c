@@ -1,53 +1,80 @@
 /* SPDX-License-Identifier: MIT */
 /* The shading pass of a frame: compiled on first use for its method, bands, window and tables. */
-#include "app/render/gl/internal.h"
+#include "app/render/gl/variant.h"
+#include "app/render/gl/block.h"
+#include "app/render/gl/preintegrated_brdf.h"
+#include "app/render/gl/program.h"
+#include "app/render/gl/sheen.h"
+#include "app/render/gl/table.h"
 
 #include <stdio.h>
 
-/* The most bands of a variant: tables of materials are summed by bands whatever the method is. */
+/* Returns the most bands of a variant; tables and areas are summed by bands whatever the method. */
 static int variant_bands_max(const gpu_variant *v) {
     const int most = method_table[v->method].bands_max[DEVICE_GPU];
-    return v->tables && most > METHOD_GPU_BANDS_MAX ? METHOD_GPU_BANDS_MAX : most;
+    return (v->tables || v->areas) && most > METHOD_GPU_BANDS_MAX ? METHOD_GPU_BANDS_MAX : most;
 }
 
-/* What a frame asks of the shading pass. A shader that sums nothing by bands is the same for all.
- */
-static gpu_variant variant_of(const gpu_renderer *r, const render_frame *frame) {
+/* Finds the variant that a frame needs. A shader that sums nothing by bands is the same for all
+ * bands and windows. */
+static gpu_variant variant_of(const render_materials *materials, const gpu_environment *around,
+                              const render_frame *frame) {
     const bool preintegrated = method_table[frame->method].reads & METHOD_READS_PREINTEGRATED;
-    const int tables = gpu_tables_by_bands(r, frame->method);
-    const bool by_bands = !preintegrated || tables;
+    const int tables = gpu_tables_by_bands(materials, around->source, frame->method);
+    const bool areas = scene_find_area(frame->lights, frame->light_count) != NULL;
+    const bool by_bands = !preintegrated || tables || areas;
     return (gpu_variant) { .method = frame->method,
                            .bands = by_bands ? frame->bands : 1,
                            .window = by_bands ? frame->window : LMP_WINDOW_NONE,
                            .tables = tables,
-                           .environment_bands = tables ? gpu_reflected_bands(r, frame->bands) : 0,
-                           .preintegrated_brdfs = preintegrated && gpu_has_preintegrated_brdf(r),
-                           .fibers = gpu_shades_fibers(r, frame) };
+                           .environment_bands =
+                               tables ? gpu_environment_reflected(around, frame->bands) : 0,
+                           .preintegrated_brdfs =
+                               preintegrated && gpu_preintegrated_brdfs_exist(materials),
+                           .sheen = gpu_sheen_shade(materials, frame),
+                           .areas = areas };
 }
 
-/* The weights of the windowing filter, as the shader's list of numbers. */
+/* Checks that the shaders light by the frame's areas: they have no coefficients of them, by which
+ * tables and fields light. */
+static bool check_areas(const gpu_variant *v, const render_materials *materials,
+                        base_error *error) {
+    const method_row *row = &method_table[v->method];
+    const char *what = row->reads & METHOD_READS_FIELD ? "a field"
+                       : row->fragment                 ? "the paper's shader"
+                       : materials->table_count > 0    ? "a tabulated material"
+                       : v->sheen                      ? "sheen"
+                                                       : NULL;
+    return !v->areas || !what ||
+           base_fail(error, NULL, "%s: the GPU does not light it by areas (the CPU does)", what);
+}
+
+/* Prints the weights of the windowing filter as a list for the shader. */
 static void print_weights(const gpu_variant *v, char *text, size_t size) {
     float weights[METHOD_GPU_BANDS_MAX];
     size_t used = 0;
-    lmp_sh_window(v->bands, v->window, 0, weights);
+    lmp_sh_make_window(v->bands, v->window, 0, weights);
     for (int l = 0; l < v->bands; l++)
         used +=
             (size_t)snprintf(text + used, size - used, "%s%.9f", l ? ", " : "", (double)weights[l]);
 }
 
-static GLuint compile_variant(const gpu_variant *v, bool layered, cli_error *error) {
+static GLuint compile_variant(const gpu_variant *v, const gpu_context *context,
+                              const gpu_mesh *mesh, base_error *error) {
     static const char *const table_defines[] = { "", "#define TABLE_FULL 0\n",
                                                  "#define TABLE_FULL 1\n" };
     const method_row *row = &method_table[v->method];
-    char weights[16 * METHOD_GPU_BANDS_MAX], defines[sizeof weights + 320];
+    char weights[16 * METHOD_GPU_BANDS_MAX], defines[sizeof weights + 384];
     print_weights(v, weights, sizeof weights);
     snprintf(defines, sizeof defines,
-             "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW_WEIGHTS %s\n"
-             "#define TABLE_ENVIRONMENT %d\n%s%s%s%s",
-             row->defines ? row->defines : "", row->function, v->bands, weights,
-             v->environment_bands, table_defines[v->tables],
+             "%s%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW_WEIGHTS %s\n"
+             "#define TABLE_ENVIRONMENT %d\n%s%s%s%s%s%s",
+             gpu_texels_define(context), row->defines ? row->defines : "", row->function, v->bands,
+             weights, v->environment_bands, table_defines[v->tables],
              v->preintegrated_brdfs ? "#define SHADE_PREINTEGRATED_BRDF\n" : "",
-             layered ? "#define PIXEL_LAYERED\n" : "", v->fibers ? "#define PIXEL_FIBERS\n" : "");
+             mesh->layered ? "#define PIXEL_LAYERED\n" : "",
+             mesh->translucent ? "#define PIXEL_TRANSLUCENT\n" : "",
+             v->sheen ? "#define PIXEL_SHEEN\n" : "", v->areas ? "#define SHADE_AREAS\n" : "");
     const gpu_stage compute = { GL_COMPUTE_SHADER, row->shader };
     const gpu_stage screen[] = { { GL_VERTEX_SHADER, "screen.vert" },
                                  { GL_FRAGMENT_SHADER, row->shader } };
@@ -55,49 +82,42 @@ static GLuint compile_variant(const gpu_variant *v, bool layered, cli_error *err
                          : gpu_program(&compute, 1, defines, error);
 }
 
-GLuint gpu_variant_find(gpu_renderer *r, const render_frame *frame, cli_error *error) {
-    gpu_variant wanted = variant_of(r, frame);
+GLuint gpu_variant_find(gpu_variants *variants, const gpu_context *context, const gpu_mesh *mesh,
+                        const render_materials *materials, const gpu_environment *around,
+                        const render_frame *frame, base_error *error) {
+    gpu_variant wanted = variant_of(materials, around, frame);
     const int bands_max = variant_bands_max(&wanted);
-    if (r->materials.table_count && r->materials.table_bands > frame->bands) {
-        cli_fail(error, NULL,
-                 "the tables of the materials have %d bands, the image %d (more --bands)",
-                 r->materials.table_bands, frame->bands);
+    if (materials->table_count && materials->table_bands > frame->bands) {
+        base_fail(error, NULL,
+                  "the tables of the materials have %d bands, the image %d (more --bands)",
+                  materials->table_bands, frame->bands);
         return 0;
     }
+    if (!check_areas(&wanted, materials, error))
+        return 0;
     if (frame->bands < 1 || frame->bands > bands_max) {
-        cli_fail(error, NULL, "%d bands: the method's shader takes 1 to %d", frame->bands,
-                 bands_max);
+        base_fail(error, NULL, "%d bands: the method's shader takes 1 to %d", frame->bands,
+                  bands_max);
         return 0;
     }
-    for (int i = 0; i < r->variant_count; i++) {
-        const gpu_variant *v = &r->variants[i];
+    for (int i = 0; i < variants->count; i++) {
+        const gpu_variant *v = &variants->items[i];
         if (v->method == wanted.method && v->bands == wanted.bands && v->window == wanted.window &&
             v->tables == wanted.tables && v->preintegrated_brdfs == wanted.preintegrated_brdfs &&
-            v->environment_bands == wanted.environment_bands && v->fibers == wanted.fibers)
+            v->environment_bands == wanted.environment_bands && v->sheen == wanted.sheen &&
+            v->areas == wanted.areas)
             return v->program;
     }
-    wanted.program = compile_variant(&wanted, r->mesh.layered, error);
+    wanted.program = compile_variant(&wanted, context, mesh, error);
     if (!wanted.program)
         return 0;
-    if (r->variant_count == GPU_VARIANTS)
-        glDeleteProgram(r->variants[--r->variant_count].program);
-    r->variants[r->variant_count++] = wanted;
+    if (variants->count == GPU_VARIANTS)
+        glDeleteProgram(variants->items[--variants->count].program);
+    variants->items[variants->count++] = wanted;
     return wanted.program;
 }
 
-/* Uploads and binds what the frame's method reads. */
-bool gpu_variant_bind(gpu_renderer *r, const render_frame *frame, double *milliseconds,
-                      cli_error *error) {
-    const unsigned reads = method_table[frame->method].reads;
-    if (reads & METHOD_READS_PREINTEGRATED &&
-        (!gpu_bind_preintegrated_lobe(r, frame->lobes, error) ||
-         !gpu_bind_preintegrated_brdf(r, error)))
-        return false;
-    if (reads & METHOD_READS_TABULATED_Z && !gpu_bind_zonal(r, frame->bands, error))
-        return false;
-    if (reads & METHOD_READS_FIELD && !gpu_bind_field(r, frame, milliseconds, error))
-        return false;
-    return gpu_prepare_fibers(r, frame, error) &&
-           (!gpu_tables_by_bands(r, frame->method) ||
-            gpu_bind_tables(r, frame->method, frame->bands, error));
+void gpu_variants_delete(gpu_variants *variants) {
+    for (int i = 0; i < variants->count; i++)
+        glDeleteProgram(variants->items[i].program);
 }

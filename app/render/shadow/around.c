@@ -9,7 +9,8 @@ static double brightness_of(const float *rgb) {
     return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3;
 }
 
-/* Sums what comes from one row of so much height; returns all of it. */
+/* Accumulates the brightness of a row's pixels, weighted by solid angle, and the mean; returns the
+ * row's sum. */
 static double add_row(const image *map, int row, double height, double *columns, double mean[3]) {
     const double solid_angle = height * 2 * (double)PI / map->width;
     double sum = 0;
@@ -57,7 +58,8 @@ bool shadow_around_shines(const shadow_around *around) {
     return around->rows && around->rows[around->source->light.height - 1] > 0;
 }
 
-/* Which of the sums the part u of all falls on; *u becomes uniform within it. */
+/* Finds the entry of cumulative sums at the fraction u of the total; *u becomes uniform within
+ * it. */
 static int find(const double *sums, int count, double *u) {
     const double wanted = *u * sums[count - 1];
     int low = 0, high = count - 1;

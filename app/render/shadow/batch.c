@@ -5,7 +5,7 @@ static int source_of(const shadow_batch *b, uint32_t ray) {
     return b->shots[ray / SHADOW_LANES].source[ray % SHADOW_LANES];
 }
 
-/* Orders by a byte of the sources, those with the same one as they were. */
+/* Sorts rays stably by one byte of their source's number. */
 static void order_by(const shadow_batch *b, int shift, size_t count, const uint32_t *from,
                      uint32_t *to) {
     uint32_t starts[257] = { 0 };
@@ -17,7 +17,7 @@ static void order_by(const shadow_batch *b, int shift, size_t count, const uint3
         to[starts[(uint32_t)source_of(b, from[i]) >> shift & 255]++] = from[i];
 }
 
-/* The rays to be sent, ordered by their sources; *list is one of the batch's. */
+/* Lists the rays to be sent, sorted by their sources; *list belongs to the batch. */
 static size_t order_rays(shadow_batch *b, const uint32_t **list) {
     size_t count = 0;
     int last = 0, now = 0;
@@ -35,7 +35,7 @@ static size_t order_rays(shadow_batch *b, const uint32_t **list) {
     return count;
 }
 
-/* At most SHADOW_LANES of them. */
+/* Sends at most SHADOW_LANES rays. */
 static void send_some(shadow_batch *b, const trace_bvh *bvh, const uint32_t *list, size_t count,
                       bool together) {
     trace_rays rays;
@@ -56,7 +56,7 @@ static void send_some(shadow_batch *b, const trace_bvh *bvh, const uint32_t *lis
         b->shots[list[i] / SHADOW_LANES].distance[list[i] % SHADOW_LANES] = hits[i].distance;
 }
 
-/* Fewer are faster each by itself. */
+/* Fewer rays than this are faster one at a time. */
 enum { TOGETHER_MIN = 4 };
 
 size_t shadow_batch_send(shadow_batch *b, const trace_bvh *bvh) {

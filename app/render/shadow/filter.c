@@ -1,127 +1,165 @@
 /* SPDX-License-Identifier: MIT */
 /* filter.c - small kernels whose taps move apart from pass to pass (à trous, Dammertz 2010). */
 #include "app/render/shadow/planes.h"
-#include "app/trace/wide.h"
+#include "app/scene/trace/wide.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-/* What one pass mixes: values of `count` planes from `first` on. */
+/* One pass of the filter. */
 typedef struct filter_pass {
     shadow_planes *planes;
-    int first, count, step;
-    float narrowing; /* how much less far than shadows are even; 0: however far */
+    int first, count; /* planes of values to filter: those of LOOK or of MIX */
+    int step;
+    float narrowing; /* how strongly the slope of shadows narrows the filter; 0: not at all */
 } filter_pass;
 
-/* Neighbors this far off the plane of a pixel, in distances to it and in pixels' widths, are of
- * another surface. */
+enum { LOOK = SHADOW_SLOPE, LOOK_COUNT = 3, MIX = SHADOW_UNHIDDEN, MIX_COUNT = SHADOW_SLOPE };
+
+/* Neighbors farther off a pixel's plane, relative to their distance and to a pixel's width, belong
+ * to another surface. */
 static const float off_plane = 0.15f, off_pixel = 1;
 
-/* What is hidden differs by so much on the two sides of an edge, not by noise. */
+/* A difference of blocked fractions that means an edge, not noise. */
 static const float jump = 0.25f;
 static const float tiny = 1e-30f;
 
-/* Planes are mixed in blocks of so many pixels a row and so many rows, whose taps stay in a core's
- * cache. */
+/* Planes are filtered in blocks of so many columns and rows, whose taps stay in a core's cache. */
 enum { BLOCK = 256, BLOCK_ROWS = 64 };
 
-/* A row of a block, and its values as they are summed. */
-typedef struct block {
-    size_t row; /* its row's first pixel */
-    int begin, end;
-    float weights[BLOCK], total[BLOCK], sums[SHADOW_VALUES][BLOCK];
-} block;
-
-/* Where the taps at an offset of the block's pixels begin ≤ x < end lie. */
-typedef struct span {
-    size_t pixel, tap; /* of the first */
-    int skipped, count;
-} span;
-
-static span span_of(const shadow_planes *p, const block *b, int dx, int dy) {
-    const int begin = b->begin + dx < 0 ? -dx : b->begin;
-    const int end = b->end + dx > p->width ? p->width - dx : b->end;
-    const size_t pixel = b->row + (size_t)begin;
-    return (span) { pixel, (size_t)((ptrdiff_t)pixel + dy * p->width + dx), begin - b->begin,
-                    end - begin };
-}
-
-/* Without a branch, so that loops become vectors. */
-static float positive(float x) {
+/* Returns max(x, 0) without a branch, so that loops are vectorized. */
+static inline float positive(float x) {
     return 0.5f * (x + fabsf(x));
 }
 
-/* How far taps at an offset count: not where the shadow may have changed much on the way, by the
- * slopes here, nor where it has. */
-static void weigh(const filter_pass *pass, const span *at, float kernel, float *restrict weights) {
+/* The planes from which weights are computed. */
+typedef struct weight_planes {
+    const float *x, *y, *z, *nx, *ny, *nz, *footprint, *slope, *hidden;
+    float steep, sudden;
+} weight_planes;
+
+static inline weight_planes weight_planes_of(const filter_pass *pass) {
     const shadow_planes *p = pass->planes;
-    const float *restrict px = p->position[0] + at->pixel, *restrict qx = p->position[0] + at->tap;
-    const float *restrict py = p->position[1] + at->pixel, *restrict qy = p->position[1] + at->tap;
-    const float *restrict pz = p->position[2] + at->pixel, *restrict qz = p->position[2] + at->tap;
-    const float *restrict nx = p->normal[0] + at->pixel, *restrict mx = p->normal[0] + at->tap;
-    const float *restrict ny = p->normal[1] + at->pixel, *restrict my = p->normal[1] + at->tap;
-    const float *restrict nz = p->normal[2] + at->pixel, *restrict mz = p->normal[2] + at->tap;
-    const float *restrict footprint = p->footprint + at->pixel;
-    const float *restrict slope = p->values[SHADOW_SLOPE] + at->pixel;
-    const float *restrict hidden = p->values[SHADOW_HIDDEN] + at->pixel;
-    const float *restrict tap_hidden = p->values[SHADOW_HIDDEN] + at->tap;
-    const float steep = pass->narrowing, sudden = sqrtf(pass->narrowing) / jump;
-    for (int x = 0; x < at->count; x++) {
-        const float dx = qx[x] - px[x], dy = qy[x] - py[x], dz = qz[x] - pz[x];
-        const float d2 = dx * dx + dy * dy + dz * dz, pixel = footprint[x] * off_pixel;
-        const float off = nx[x] * dx + ny[x] * dy + nz[x] * dz;
-        const float most = off_plane * off_plane * d2 + pixel * pixel;
-        const float facing = positive(nx[x] * mx[x] + ny[x] * my[x] + nz[x] * mz[x]);
-        const float change = steep * d2 * slope[x] * slope[x];
-        const float apart = sudden * (hidden[x] - tap_hidden[x]), apart2 = apart * apart;
-        const float apart4 = apart2 * apart2, uneven = 1 + change * change + apart4 * apart4;
-        weights[x] = kernel * facing * facing * positive(most - off * off) / (most * uneven);
+    return (weight_planes) { p->position[0],
+                             p->position[1],
+                             p->position[2],
+                             p->normal[0],
+                             p->normal[1],
+                             p->normal[2],
+                             p->footprint,
+                             p->values[SHADOW_SLOPE],
+                             p->values[SHADOW_HIDDEN],
+                             pass->narrowing,
+                             sqrtf(pass->narrowing) / jump };
+}
+
+/* Returns the weight of a tap of pixel i: low if the shadow may have changed much in between, by
+ * the slope at the pixel, or has changed. */
+static inline float weigh(weight_planes s, size_t i, size_t tap, float kernel) {
+    const float dx = s.x[tap] - s.x[i], dy = s.y[tap] - s.y[i], dz = s.z[tap] - s.z[i];
+    const float d2 = dx * dx + dy * dy + dz * dz, pixel = s.footprint[i] * off_pixel;
+    const float off = s.nx[i] * dx + s.ny[i] * dy + s.nz[i] * dz;
+    const float most = off_plane * off_plane * d2 + pixel * pixel;
+    const float facing = positive(s.nx[i] * s.nx[tap] + s.ny[i] * s.ny[tap] + s.nz[i] * s.nz[tap]);
+    const float change = s.steep * d2 * s.slope[i] * s.slope[i];
+    const float apart = s.sudden * (s.hidden[i] - s.hidden[tap]), apart2 = apart * apart;
+    const float apart4 = apart2 * apart2, uneven = 1 + change * change + apart4 * apart4;
+    return kernel * facing * facing * positive(most - off * off) / (most * uneven);
+}
+
+/* The weights of the nine taps, by rows; named, because the compiler does not vectorize loops over
+ * them. */
+typedef struct weights {
+    float a, b, c, d, e, f, g, h, i;
+} weights;
+
+/* Sums the weights from 0 on, as for a pixel with fewer taps. */
+static inline float sum_of(weights w) {
+    return 0 + w.a + w.b + w.c + w.d + w.e + w.f + w.g + w.h + w.i;
+}
+
+static inline float sum_values(const float *v, size_t i, size_t across, size_t down, weights w) {
+    return 0 + w.a * v[i - down - across] + w.b * v[i - down] + w.c * v[i - down + across] +
+           w.d * v[i - across] + w.e * v[i] + w.f * v[i + across] + w.g * v[i + down - across] +
+           w.h * v[i + down] + w.i * v[i + down + across];
+}
+
+/* Filters pixels of a row, from i on, all of whose taps are in the image. */
+static inline void mix_inside(const filter_pass *pass, int first, int count, size_t i, size_t end) {
+    const weight_planes s = weight_planes_of(pass);
+    const size_t across = (size_t)pass->step, down = across * (size_t)pass->planes->width;
+    const float *from[MIX_COUNT];
+    float *to[MIX_COUNT];
+    for (int k = 0; k < count; k++) {
+        from[k] = pass->planes->values[first + k];
+        to[k] = pass->planes->scratch[first + k];
+    }
+#pragma omp simd
+    for (size_t x = i; x < end; x++) {
+        const weights w = { weigh(s, x, x - down - across, 0.0625f),
+                            weigh(s, x, x - down, 0.125f),
+                            weigh(s, x, x - down + across, 0.0625f),
+                            weigh(s, x, x - across, 0.125f),
+                            weigh(s, x, x, 0.25f),
+                            weigh(s, x, x + across, 0.125f),
+                            weigh(s, x, x + down - across, 0.0625f),
+                            weigh(s, x, x + down, 0.125f),
+                            weigh(s, x, x + down + across, 0.0625f) };
+        const float total = sum_of(w) + tiny;
+        to[0][x] = sum_values(from[0], x, across, down, w) / total;
+        to[1][x] = sum_values(from[1], x, across, down, w) / total;
+        to[2][x] = sum_values(from[2], x, across, down, w) / total;
+        if (count > LOOK_COUNT) {
+            to[3][x] = sum_values(from[3], x, across, down, w) / total;
+            to[4][x] = sum_values(from[4], x, across, down, w) / total;
+            to[5][x] = sum_values(from[5], x, across, down, w) / total;
+        }
     }
 }
 
-static void add_tap(const filter_pass *pass, const span *at, block *b) {
-    float *restrict total = b->total + at->skipped;
-    const float *restrict weights = b->weights;
-    for (int x = 0; x < at->count; x++)
-        total[x] += weights[x];
-    for (int k = 0; k < pass->count; k++) {
-        const float *restrict from = pass->planes->values[pass->first + k] + at->tap;
-        float *restrict sum = b->sums[k] + at->skipped;
-        for (int x = 0; x < at->count; x++)
-            sum[x] += weights[x] * from[x];
-    }
+static TRACE_WIDE void look_inside(const filter_pass *pass, size_t i, size_t end) {
+    mix_inside(pass, LOOK, LOOK_COUNT, i, end);
 }
 
-static TRACE_WIDE void filter_block(const filter_pass *pass, int y, block *b) {
+static TRACE_WIDE void mix_values_inside(const filter_pass *pass, size_t i, size_t end) {
+    mix_inside(pass, MIX, MIX_COUNT, i, end);
+}
+
+/* Filters a pixel at the image's edge. */
+static void mix_pixel(const filter_pass *pass, int x, int y) {
     static const float kernel[2] = { 0.5f, 0.25f };
     const shadow_planes *p = pass->planes;
-    memset(b->total, 0, sizeof b->total);
-    memset(b->sums, 0, sizeof *b->sums * (size_t)pass->count);
-    for (int j = -1; j <= 1; j++)
-        for (int i = -1; i <= 1; i++) {
-            const int dx = i * pass->step, dy = j * pass->step;
-            if (y + dy < 0 || y + dy >= p->height)
+    const size_t i = (size_t)y * (size_t)p->width + (size_t)x;
+    float total = 0, sums[MIX_COUNT] = { 0 };
+    for (int v = -1; v <= 1; v++)
+        for (int u = -1; u <= 1; u++) {
+            const int column = x + u * pass->step, row = y + v * pass->step;
+            const size_t tap = (size_t)row * (size_t)p->width + (size_t)column;
+            if (column < 0 || column >= p->width || row < 0 || row >= p->height)
                 continue;
-            const span at = span_of(p, b, dx, dy);
-            weigh(pass, &at, kernel[abs(i)] * kernel[abs(j)], b->weights);
-            add_tap(pass, &at, b);
+            const float weight =
+                weigh(weight_planes_of(pass), i, tap, kernel[abs(v)] * kernel[abs(u)]);
+            total += weight;
+            for (int k = 0; k < pass->count; k++)
+                sums[k] += weight * p->values[pass->first + k][tap];
         }
-    for (int k = 0; k < pass->count; k++) {
-        float *mixed = p->scratch[pass->first + k] + b->row + b->begin;
-        for (int x = 0; x < b->end - b->begin; x++)
-            mixed[x] = b->sums[k][x] / (b->total[x] > 0 ? b->total[x] : 1);
-    }
+    for (int k = 0; k < pass->count; k++)
+        p->scratch[pass->first + k][i] = sums[k] / (total + tiny);
 }
 
-static void filter_rows(const filter_pass *pass, int first_row, int first) {
-    const int width = pass->planes->width, height = pass->planes->height;
-    const int end = first_row + BLOCK_ROWS < height ? first_row + BLOCK_ROWS : height;
-    block b = { .begin = first, .end = first + BLOCK < width ? first + BLOCK : width };
-    for (int y = first_row; y < end; y++) {
-        b.row = (size_t)y * (size_t)width;
-        filter_block(pass, y, &b);
-    }
+static void mix_row(const filter_pass *pass, int y, int begin, int end) {
+    const int width = pass->planes->width, step = pass->step;
+    const bool inside = y >= step && y + step < pass->planes->height && width > 2 * step;
+    const int left = inside ? begin > step ? begin : step : end;
+    const int right = end < width - step ? end : width - step;
+    const size_t row = (size_t)y * (size_t)width;
+    for (int x = begin; x < left && x < end; x++)
+        mix_pixel(pass, x, y);
+    if (left < right)
+        (pass->first == LOOK ? look_inside : mix_values_inside)(pass, row + (size_t)left,
+                                                                row + (size_t)right);
+    for (int x = left > right ? left : right; x < end; x++)
+        mix_pixel(pass, x, y);
 }
 
 static void run_pass(const filter_pass *pass) {
@@ -129,7 +167,8 @@ static void run_pass(const filter_pass *pass) {
 #pragma omp parallel for collapse(2) schedule(dynamic)
     for (int y = 0; y < p->height; y += BLOCK_ROWS)
         for (int x = 0; x < p->width; x += BLOCK)
-            filter_rows(pass, y, x);
+            for (int row = y; row < y + BLOCK_ROWS && row < p->height; row++)
+                mix_row(pass, row, x, x + BLOCK < p->width ? x + BLOCK : p->width);
     for (int k = pass->first; k < pass->first + pass->count; k++) {
         float *mixed = p->scratch[k];
         p->scratch[k] = p->values[k];
@@ -137,7 +176,7 @@ static void run_pass(const filter_pass *pass) {
     }
 }
 
-/* What is hidden, and how steeply, in parts of what would be there. */
+/* Divides what is blocked, and its slope, by what would arrive unblocked. */
 static void divide_looks(shadow_planes *p) {
     const size_t count = (size_t)p->width * (size_t)p->height;
     const float *restrict weight = p->values[SHADOW_WEIGHT];
@@ -150,13 +189,13 @@ static void divide_looks(shadow_planes *p) {
     }
 }
 
-/* Slopes and edges are looked at over a few pixels: far enough to tell them from noise, near enough
- * to lie where they are; twice as far where some have no rays, or single rays stay as dots. */
+/* Slopes and edges are estimated over a few pixels: enough to tell them from noise, few enough to
+ * locate them; twice as far where some pixels have no rays, or single rays would remain as dots. */
 void shadow_filter(shadow_planes *planes, int spacing, float narrowing) {
     enum { LOOKS = 2, PASSES = 4 };
     for (int i = 0; i < LOOKS; i++)
-        run_pass(&(filter_pass) { planes, SHADOW_SLOPE, 3, spacing > 1 ? 1 << i : 1, 0 });
+        run_pass(&(filter_pass) { planes, LOOK, LOOK_COUNT, spacing > 1 ? 1 << i : 1, 0 });
     divide_looks(planes);
     for (int i = 0; i < PASSES; i++)
-        run_pass(&(filter_pass) { planes, SHADOW_UNHIDDEN, SHADOW_SLOPE, 1 << i, narrowing });
+        run_pass(&(filter_pass) { planes, MIX, MIX_COUNT, 1 << i, narrowing });
 }

@@ -3,11 +3,11 @@
 
 #include "app/scene/vector.h"
 
-/* The ground reaches as far as so many radii of the scene: from there on it hides less than a
- * thousandth of the sky. */
+/* The ground's radius in radii of the scene: farther out, the scene hides less than a thousandth of
+ * the sky. */
 static const float reach_radii = 30;
 
-/* A disk around the point under the middle of the scene. */
+/* A disk around the point below the middle of the scene. */
 typedef struct disk {
     lmp_vec3 middle;
     float radius;
@@ -20,7 +20,7 @@ static disk disk_under(const scene *s) {
                     reach_radii * 0.5f * vec_length(vec_sub(high, low)) };
 }
 
-/* Where a ray meets it from above; directions are as long as render_camera has them. */
+/* Finds where a ray meets the disk from above; directions have the length of render_camera's. */
 static bool meets(const disk *ground, lmp_vec3 origin, lmp_vec3 direction, float far,
                   lmp_vec3 *at) {
     const float above = origin.y - ground->middle.y;
@@ -33,21 +33,17 @@ static bool meets(const disk *ground, lmp_vec3 origin, lmp_vec3 direction, float
 }
 
 static void set_surface(render_tile *tile, int i, lmp_vec3 at, lmp_vec3 view) {
-    static const lmp_material white = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
-                                        .base_color = { 1, 1, 1 },
-                                        .roughness = 1,
-                                        .dielectric = { .given = true } };
     const float position[3] = { at.x, at.y, at.z }, normal[3] = { 0, 1, 0 };
     const float to_camera[3] = { view.x, view.y, view.z };
     for (int c = 0; c < 3; c++) {
         tile->position[c][i] = position[c];
         tile->normal[c][i] = normal[c];
         tile->view[c][i] = to_camera[c];
-        tile->emission[c][i] = 0;
+        tile->emission[c][i] = tile->transmitted[c][i] = 0;
     }
     tile->kind[i] = RENDER_SURFACE;
     tile->ambient[i] = 1;
-    tile->material[i] = white;
+    tile->material[i] = render_material_matte((lmp_rgb) { 1, 1, 1 });
 }
 
 void shadow_ground_lay(const scene *s, const render_camera *camera, const render_rectangle *pixels,

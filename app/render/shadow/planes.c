@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/shadow/planes.h"
 
-#include "app/memory/memory.h"
+#include "app/base/memory.h"
 
 #include <stdlib.h>
 

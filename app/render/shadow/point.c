@@ -2,15 +2,16 @@
 #include "app/render/shadow/point.h"
 
 #include "app/scene/instance.h"
+#include "app/scene/trace/wide.h"
 #include "app/scene/vector.h"
-#include "app/trace/wide.h"
 
-/* The triangle of a pixel is looked for this many lifts before and behind its position. */
+/* How far before and behind a pixel's position its triangle is looked for, in units of the rays'
+ * lift. */
 static const float near_lifts = 10;
 
 /* --- where rays start ------------------------------------------------------------------------- */
 
-/* Triangles beside each other, and where on them the points lie. */
+/* Triangles side by side, and the points' weights on them. */
 typedef struct triangle_lanes {
     shadow_vectors corners[3], normals[3];
     shadow_lanes weights[3];
@@ -27,7 +28,7 @@ static void set_triangle(const scene_vertex corners[3], const trace_hit *hit, in
     t->weights[2][lane] = hit->v;
 }
 
-/* How far the smooth surface bulges past the triangle at a point of it. */
+/* Returns how far the smooth surface bulges past the triangle at a point. */
 static float bulge(const triangle_lanes *t, int lane, lmp_vec3 at) {
     float height = 0;
     for (int i = 0; i < 3; i++) {
@@ -44,10 +45,11 @@ static lmp_vec3 mix(const shadow_vectors corners[3], const shadow_lanes weights[
                            vec_scale(shadow_lane(&corners[2], lane), weights[2][lane])));
 }
 
-/* A smooth normal says that the surface bulges past its flat triangle: a ray that starts on the
- * triangle would meet its neighbors. So it starts as high as the surface of second degree that has
- * the corners' normals, which lies half as far off the triangle as the corners' tangent planes,
- * and, against rounding, a little off the triangle. Hollows stay where they are drawn. */
+/* Moves the rays' origins off the triangles. A smooth normal means that the surface bulges past its
+ * flat triangle: a ray that starts on the triangle would hit the neighboring ones. So it starts on
+ * the quadratic surface with the corners' normals, which is half as far off the triangle as the
+ * corners' tangent planes, plus a small lift against rounding. Concave points stay on the triangle;
+ * for light from behind they are the ones that bulge. */
 static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float lift, shadow_points *p) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_vec3 a = shadow_lane(&t->corners[0], i);
@@ -62,22 +64,27 @@ static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float lift, shad
                                   length > 0 ? sum.y * to_unit : side * face.y,
                                   length > 0 ? sum.z * to_unit : side * face.z };
         const float height = side * bulge(t, i, at), off = height > 0 ? height : 0;
+        const float hollow = height < 0 ? height : 0;
         shadow_set_lane(&p->smooth, i, smooth);
         shadow_set_lane(&p->origin, i,
                         vec_add(vec_add(at, vec_scale(smooth, off)), vec_scale(face, side * lift)));
+        shadow_set_lane(
+            &p->behind, i,
+            vec_sub(vec_add(at, vec_scale(smooth, hollow)), vec_scale(face, side * lift)));
     }
 }
 
-/* Where rounding hides the triangle from the ray, what the pixel knows serves. */
+/* Moves the origin off the pixel's position where rounding makes the ray miss the triangle. */
 static void leave_pixel(const shadow_view *view, int lane, shadow_points *p) {
     const lmp_vec3 normal = shadow_lane(&p->normal, lane);
     shadow_set_lane(&p->smooth, lane, normal);
-    shadow_set_lane(
-        &p->origin, lane,
-        vec_add(shadow_lane(&p->position, lane), vec_scale(normal, near_lifts * view->lift)));
+    const lmp_vec3 at = shadow_lane(&p->position, lane),
+                   off = vec_scale(normal, near_lifts * view->lift);
+    shadow_set_lane(&p->origin, lane, vec_add(at, off));
+    shadow_set_lane(&p->behind, lane, vec_sub(at, off));
 }
 
-/* A short ray along the view of each point finds its triangle. */
+/* Finds the triangle of each point by a short ray along its view. */
 static void find_triangles(const shadow_view *view, const shadow_points *p,
                            trace_hit hits[SHADOW_LANES]) {
     const float before = near_lifts * view->lift;
@@ -94,7 +101,7 @@ static void find_triangles(const shadow_view *view, const shadow_points *p,
     trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
 }
 
-/* Neighbors often see the same triangle. */
+/* Finds the origins of rays; neighbors often see the same triangle. */
 static void find_origins(const shadow_view *view, const trace_hit hits[SHADOW_LANES],
                          shadow_points *p) {
     triangle_lanes triangles = { 0 };
@@ -116,7 +123,7 @@ static void find_origins(const shadow_view *view, const trace_hit hits[SHADOW_LA
 
 /* --- what they reflect ------------------------------------------------------------------------ */
 
-/* n bands show a lobe as wide as one of GGX of this alpha², at least. */
+/* Returns the alpha² of the narrowest GGX lobe that n bands can show. */
 static float resolved(const lmp_shade_settings *settings) {
     const float width = settings->window == LMP_WINDOW_NONE ? 1.5f : 2.4f;
     const float alpha = width / (float)settings->bands;
@@ -152,7 +159,7 @@ static void set_material(const lmp_material *m, float least, int i, shadow_point
     p->alpha2[i] = m->roughness * m->roughness * m->roughness * m->roughness + least;
 }
 
-/* What is under a coat is seen through it; 0 where there is none. */
+/* Sets the coat of a point, which attenuates what is below it; 0 if there is none. */
 static void set_coat(const render_tile *row, int x, float least, int i, shadow_points *p) {
     const lmp_coat *coat = &row->material[x].coat;
     const bool coated = p->lit[i] && coat->weight > 0;
@@ -161,7 +168,7 @@ static void set_coat(const render_tile *row, int x, float least, int i, shadow_p
     if (coated) {
         const lmp_vec3 view = shadow_lane(&p->view, i);
         normal = vec(row->coat_normal[0][x], row->coat_normal[1][x], row->coat_normal[2][x]);
-        p->coat[i] = lmp_material_coated(coat, normal, view);
+        p->coat[i] = lmp_material_coat_reflectance(coat, normal, view);
         p->coat_alpha2[i] =
             coat->roughness * coat->roughness * coat->roughness * coat->roughness + least;
         mirror = vec_sub(vec_scale(normal, 2 * vec_dot(normal, view)), view);
@@ -171,6 +178,15 @@ static void set_coat(const render_tile *row, int x, float least, int i, shadow_p
     }
     shadow_set_lane(&p->coat_normal, i, normal);
     shadow_set_lane(&p->coat_mirror, i, mirror);
+}
+
+static void set_transmission(const render_tile *row, int x, int i, shadow_points *p) {
+    p->through[i] = 0;
+    for (int c = 0; c < 3; c++) {
+        p->transmitted.of[c][i] = p->lit[i] && row->translucent ? row->transmitted[c][x] : 0;
+        p->through[i] += p->transmitted.of[c][i] / 3;
+    }
+    p->translucent |= p->through[i] > 0;
 }
 
 float shadow_footprint(const shadow_view *view, const render_tile *row, int x) {
@@ -184,10 +200,10 @@ float shadow_footprint(const shadow_view *view, const render_tile *row, int x) {
 
 void shadow_points_set(const shadow_view *view, const render_tile *row, const trace_hit *hits,
                        const int *pixels, int count, shadow_points *p) {
-    static const lmp_material unlit = { 0 }; /* where nothing is, the row has no material */
+    static const lmp_material unlit = { 0 }; /* without a surface there is no material */
     const float least = resolved(&view->settings);
     p->settings = &view->settings;
-    p->coated = false;
+    p->coated = p->translucent = false;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const int x = pixels[i < count ? i : 0];
         p->lit[i] = i < count;
@@ -205,6 +221,7 @@ void shadow_points_set(const shadow_view *view, const render_tile *row, const tr
         p->ambient[i] = row->ambient[x];
         set_material(p->material[i], least, i, p);
         set_coat(row, x, least, i, p);
+        set_transmission(row, x, i, p);
     }
     trace_hit of[SHADOW_LANES];
     for (int i = 0; hits && i < count; i++)
@@ -225,18 +242,18 @@ static void reflect_series(const shadow_points *p, const shadow_vectors *directi
     shadow_set_lane(k, lane, vec(rgb.r, rgb.g, rgb.b));
 }
 
-/* GGX and its masking, times the cosine with the light; `out` is that with the viewer, and `half`
- * that with the direction half way between. */
-static float glossy(float in, float out, float half, float a2) {
-    const float held = out > 1e-3f ? out : 1e-3f, peak = half * half * (a2 - 1) + 1;
+/* Returns GGX with masking, times the cosine of the light; `out` is the cosine of the view, and
+ * `half_cosine` that of the half vector. */
+static float glossy(float in, float out, float half_cosine, float a2) {
+    const float held = out > 1e-3f ? out : 1e-3f, peak = half_cosine * half_cosine * (a2 - 1) + 1;
     const float masking =
         in * sqrtf(held * held * (1 - a2) + a2) + held * sqrtf(in * in * (1 - a2) + a2);
     const float value = in * a2 / (2 * PI * peak * peak * (in > 0 ? masking : 1));
     return in > 0 ? value : 0;
 }
 
-/* The direction half way between v and w; where they are opposite there is none, and no light. */
-static lmp_vec3 half_way(lmp_vec3 v, lmp_vec3 w) {
+/* Returns the half vector of v and w; if they are opposite, the result gives no light. */
+static lmp_vec3 half_vector(lmp_vec3 v, lmp_vec3 w) {
     const lmp_vec3 sum = vec_add(v, w);
     const float length = vec_length(sum);
     return vec_scale(sum, 1 / (length > 0 ? length : 1));
@@ -246,7 +263,7 @@ static TRACE_WIDE void reflect_bare(const shadow_points *p, const shadow_vectors
                                     shadow_vectors *k) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_vec3 n = shadow_lane(&p->normal, i), v = shadow_lane(&p->view, i);
-        const lmp_vec3 w = shadow_lane(directions, i), h = half_way(v, w);
+        const lmp_vec3 w = shadow_lane(directions, i), h = half_vector(v, w);
         const float in = vec_dot(n, w), lit = in > 0 ? in / PI : 0;
         const float along = fabsf(vec_dot(v, h)), across = 1 - (along < 1 ? along : 1);
         const float square = across * across, grazing = square * square * across;
@@ -262,7 +279,7 @@ static TRACE_WIDE void add_coats(const shadow_points *p, const shadow_vectors *d
                                  shadow_vectors *k) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_vec3 n = shadow_lane(&p->coat_normal, i), v = shadow_lane(&p->view, i);
-        const lmp_vec3 w = shadow_lane(directions, i), h = half_way(v, w);
+        const lmp_vec3 w = shadow_lane(directions, i), h = half_vector(v, w);
         const float coat = p->coat[i];
         const float over = glossy(vec_dot(n, w), vec_dot(n, v), vec_dot(n, h), p->coat_alpha2[i]);
         for (int c = 0; c < 3; c++)
@@ -270,10 +287,27 @@ static TRACE_WIDE void add_coats(const shadow_points *p, const shadow_vectors *d
     }
 }
 
+static TRACE_WIDE void add_transmission(const shadow_points *p, const shadow_vectors *directions,
+                                        shadow_vectors *k) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float in = -vec_dot(shadow_lane(&p->normal, i), shadow_lane(directions, i));
+        const float lit = in > 0 ? in / PI : 0;
+        for (int c = 0; c < 3; c++)
+            k->of[c][i] += p->transmitted.of[c][i] * lit;
+    }
+}
+
+lmp_vec3 shadow_origin(const shadow_points *p, int lane, lmp_vec3 w) {
+    const bool behind = p->through[lane] > 0 && vec_dot(shadow_lane(&p->normal, lane), w) < 0;
+    return shadow_lane(behind ? &p->behind : &p->origin, lane);
+}
+
 void shadow_reflect(const shadow_points *p, const shadow_vectors *w, shadow_vectors *k) {
     reflect_bare(p, w, k);
     if (p->coated)
         add_coats(p, w, k);
+    if (p->translucent)
+        add_transmission(p, w, k);
     for (int i = 0; i < SHADOW_LANES; i++)
         if (p->lit[i] && p->material[i]->kind != LMP_MATERIAL_METALLIC_ROUGHNESS)
             reflect_series(p, w, i, k);

@@ -2,14 +2,14 @@
 #include "app/render/shadow/rays.h"
 
 #include "app/render/shadow/sequence.h"
+#include "app/scene/trace/wide.h"
 #include "app/scene/vector.h"
-#include "app/trace/wide.h"
 
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The next numbers in 0 … 1 of every pixel. */
+/* Draws the next numbers in 0 … 1 for every pixel. */
 static TRACE_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shadow_lanes *u) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         float numbers[3];
@@ -19,7 +19,7 @@ static TRACE_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shad
     }
 }
 
-/* The sources that numbers fall on. */
+/* Chooses the sources by random numbers and cumulative weights. */
 static TRACE_WIDE void choose(const shadow_job *job, shadow_lanes *weights, const float *u,
                               int *chosen) {
     const size_t last = job->source_count - 1;
@@ -30,8 +30,8 @@ static TRACE_WIDE void choose(const shadow_job *job, shadow_lanes *weights, cons
             chosen[i] += weights[s][i] <= u[i] * weights[last][i];
 }
 
-/* The probability with which each was chosen, in parts of the pixel's guess of what it gets; 0
- * where nothing is to be sent. */
+/* Finds the weight with which each source was chosen, relative to the pixel's estimated light; 0
+ * where no ray is to be sent. */
 static void weigh_choice(const shadow_points *p, shadow_lanes *weights, const int *chosen,
                          shadow_lanes weight) {
     for (int i = 0; i < SHADOW_LANES; i++) {
@@ -41,7 +41,7 @@ static void weigh_choice(const shadow_points *p, shadow_lanes *weights, const in
     }
 }
 
-/* What each ray brings; rays that would bring nothing are not sent. */
+/* Computes the contribution of each ray; rays that would contribute nothing are not sent. */
 static TRACE_WIDE void value_rays(const shadow_samples *samples, const shadow_vectors *k,
                                   const float *weight, shadow_shot *shot) {
     for (int i = 0; i < SHADOW_LANES; i++) {
@@ -79,16 +79,22 @@ static void aim(const shadow_job *job, const shadow_points *p, shadow_lanes *wei
     memcpy(shot->source, chosen, sizeof shot->source);
     memcpy(shot->size, samples.size, sizeof shot->size);
     memcpy(shot->rays.origin, p->origin.of, sizeof shot->rays.origin);
+    for (int i = 0; p->translucent && i < SHADOW_LANES; i++) {
+        const lmp_vec3 from = shadow_origin(p, i, shadow_lane(&samples.direction, i));
+        shot->rays.origin[0][i] = from.x;
+        shot->rays.origin[1][i] = from.y;
+        shot->rays.origin[2][i] = from.z;
+    }
     memcpy(shot->rays.direction, samples.direction.of, sizeof shot->rays.direction);
 }
 
-/* Over how wide the half-shadow is of what hides a light, at least half a pixel. */
+/* Returns the reciprocal of the penumbra's width, which is at least about half a pixel. */
 static float slope_of(float size, float length, float distance, float footprint) {
     const float beyond = length / (length - distance);
     return 1 / (2 * size * distance * (length <= FLT_MAX ? beyond : 1) + 0.6f * footprint);
 }
 
-/* Adds what the rays have found to the pixels' sums. */
+/* Adds the results of the rays to the pixels' sums. */
 static TRACE_WIDE void add_shot(const shadow_shot *shot, shadow_group *group) {
     shadow_lanes *sums = group->sums;
     for (int i = 0; i < SHADOW_LANES; i++) {
@@ -107,21 +113,19 @@ static TRACE_WIDE void add_shot(const shadow_shot *shot, shadow_group *group) {
     }
 }
 
-/* Sends the batch, and begins another. */
-static size_t send_batch(const shadow_job *job, shadow_work *work) {
-    const size_t count = shadow_batch_send(&work->batch, job->view.bvh);
+/* Sends the batch and begins an empty one. */
+static void send_batch(const shadow_job *job, shadow_work *work) {
+    work->sent += shadow_batch_send(&work->batch, job->view.bvh);
     for (int i = 0; i < work->batch.count; i++)
         add_shot(&work->batch.shots[i], &work->groups[work->group_of[i]]);
     work->batch.count = 0;
-    return count;
 }
 
-/* Adds the rays of a group's points to the batch; where they do not fit, what is there is sent. */
-static size_t add_rays(const shadow_job *job, const shadow_points *points, int number,
-                       shadow_work *work) {
+/* Adds the rays of a group's points to the batch, sending it whenever it is full. */
+static void add_rays(const shadow_job *job, const shadow_points *points, int number,
+                     shadow_work *work) {
     const shadow_group *group = &work->groups[number];
     shadow_sequence sequences[SHADOW_LANES];
-    size_t sent = 0;
     shadow_sources_weigh(job->sources, job->source_count, points, work->weights);
     for (int i = 0; i < SHADOW_LANES; i++)
         sequences[i] = shadow_sequence_of(group->x[i], group->y[i], (uint32_t)job->rays, job->seed);
@@ -129,13 +133,12 @@ static size_t add_rays(const shadow_job *job, const shadow_points *points, int n
         shadow_lanes u[3];
         int chosen[SHADOW_LANES];
         if (work->batch.count == SHADOW_SHOTS)
-            sent += send_batch(job, work);
+            send_batch(job, work);
         draw(sequences, (uint32_t)ray, u);
         choose(job, work->weights, u[0], chosen);
         work->group_of[work->batch.count] = number;
         aim(job, points, work->weights, chosen, u, &work->batch.shots[work->batch.count++]);
     }
-    return sent;
 }
 
 /* --- pixels ----------------------------------------------------------------------------------- */
@@ -152,9 +155,9 @@ static bool alike(const render_tile *tile, int a, int b, float footprint) {
     return fabsf(off) < 0.5f * footprint && facing > 0.9f;
 }
 
-/* Whether pixel `at` takes what those pixels of its row of the tile find that send rays, which are
- * others in the next row and in the next sample: of two, as the colors of a checkerboard; of four,
- * in every row between those of the row before. */
+/* Whether pixel `at` sends no rays, because neighbors in its row of the tile that do are on the
+ * same surface. Which pixels send rays changes from row to row and from sample to sample: one in
+ * two, like a checkerboard; one in four, halfway between those of the row before. */
 static bool borrows(const shadow_job *job, const render_tile *tile, const render_rectangle *pixels,
                     int at, const shadow_planes *planes) {
     const int i = at % pixels->width, x = pixels->x + i, y = pixels->y + at / pixels->width;
@@ -165,7 +168,8 @@ static bool borrows(const shadow_job *job, const render_tile *tile, const render
                           (i + before < pixels->width && alike(tile, at, at + before, footprint)));
 }
 
-/* Pixels without rays. What is no surface is 0, and so without weight for the filter. */
+/* Initializes the planes of a tile's pixels. Pixels without a surface are 0, which gives them no
+ * weight in the filter. */
 static void store_tile(const shadow_job *job, const render_tile *tile,
                        const render_rectangle *pixels, shadow_planes *planes) {
     for (int j = 0; j < pixels->height; j++) {
@@ -195,8 +199,9 @@ static void store(const shadow_group *group, shadow_planes *planes) {
     }
 }
 
-/* Takes the next pixels that send rays, from number `at` on: along a Morton curve, so that they are
- * close to each other. Returns the number after them; `indices` are theirs in the tile. */
+/* Collects the next pixels that send rays, from number `at` on, along a Morton curve so that they
+ * are close to each other. Returns the number after them; `indices` receives their indices in the
+ * tile. */
 static uint32_t pick(const shadow_job *job, const render_tile *tile, const render_rectangle *pixels,
                      uint32_t at, const shadow_planes *planes, int indices[SHADOW_LANES],
                      shadow_group *group) {
@@ -214,39 +219,37 @@ static uint32_t pick(const shadow_job *job, const render_tile *tile, const rende
     return at;
 }
 
-/* Has a group send rays. */
-static size_t add_group(const shadow_job *job, const int indices[SHADOW_LANES], int width,
-                        int number, shadow_work *work) {
+/* Adds the rays of a group's pixels. */
+static void add_group(const shadow_job *job, const render_surfaces *surfaces,
+                      const int indices[SHADOW_LANES], int number, shadow_work *work) {
     shadow_group *group = &work->groups[number];
     trace_hit hits[SHADOW_LANES];
     shadow_points points;
-    for (int i = 0; job->hits && i < group->count; i++)
-        hits[i] = job->hits[(size_t)group->y[i] * (size_t)width + group->x[i]];
-    shadow_points_set(&job->view, &work->tile, job->hits ? hits : NULL, indices, group->count,
+    for (int i = 0; surfaces->hits && i < group->count; i++)
+        hits[i] = surfaces->hits[render_surfaces_at(surfaces, (int)group->x[i], (int)group->y[i])];
+    shadow_points_set(&job->view, &work->tile, surfaces->hits ? hits : NULL, indices, group->count,
                       &points);
     memcpy(group->footprint, points.footprint, sizeof group->footprint);
     group->smooth = points.smooth;
-    return add_rays(job, &points, number, work);
+    add_rays(job, &points, number, work);
 }
 
-size_t shadow_rays_tile(const shadow_job *job, const render_rectangle *pixels, shadow_work *work,
-                        shadow_planes *planes) {
+void shadow_rays_tile(const shadow_job *job, const render_surfaces *surfaces,
+                      const render_rectangle *pixels, shadow_work *work, shadow_planes *planes) {
     const render_tile *tile = &work->tile;
     int indices[SHADOW_LANES];
-    size_t sent = 0;
     store_tile(job, tile, pixels, planes);
     for (uint32_t at = 0; job->source_count > 0 && at < RENDER_TILE_PIXELS;) {
         int count = 0;
         do {
             at = pick(job, tile, pixels, at, planes, indices, &work->groups[count]);
             if (work->groups[count].count > 0)
-                sent += add_group(job, indices, planes->width, count++, work);
+                add_group(job, surfaces, indices, count++, work);
         } while (at < RENDER_TILE_PIXELS && (count + 1) * job->rays <= SHADOW_SHOTS);
-        sent += send_batch(job, work);
+        send_batch(job, work);
         for (int i = 0; i < count; i++)
             store(&work->groups[i], planes);
     }
-    return sent;
 }
 
 /* --- what a thread works with ----------------------------------------------------------------- */

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* sequence.h - the random numbers of a pixel's rays. Pixels are numbered along a Morton curve and
- * their rays go on where those of the pixel before end, in one sequence of low discrepancy: so the
- * rays of every square of pixels, which a filter brings together, are as even as those of one pixel
- * (Ahmed and Wonka 2020). Scrambled after Owen by Laine and Karras's hash (Burley 2020). */
-#ifndef LAMPION_SHADOW_SEQUENCE_H
-#define LAMPION_SHADOW_SEQUENCE_H
+ * share one low-discrepancy sequence, in which the rays of each pixel follow those of the pixel
+ * before: so the rays of every square of pixels, which a filter combines, are as evenly distributed
+ * as those of one pixel (Ahmed and Wonka 2020). Owen scrambling by Laine and Karras's hash (Burley
+ * 2020). */
+#ifndef LAMPION_RENDER_SHADOW_SEQUENCE_H
+#define LAMPION_RENDER_SHADOW_SEQUENCE_H
 
 #include <stdint.h>
 
@@ -23,7 +24,7 @@ static inline uint32_t shadow_reverse(uint32_t x) {
     return (x & 0xaaaaaaaau) >> 1 | (x & 0x55555555u) << 1;
 }
 
-/* Every bit is flipped or not by a hash of those above it. */
+/* Flips every bit or not by a hash of the bits above it. */
 static inline uint32_t shadow_scramble(uint32_t x, uint32_t seed) {
     x = shadow_reverse(x);
     x ^= x * 0x3d20adeau;
@@ -38,8 +39,8 @@ static inline float shadow_unit(uint32_t x) {
     return (float)(x >> 8) * 0x1p-24f;
 }
 
-/* The second dimension of Sobol's sequence: Pascal's triangle modulo 2, a product of sparse
- * matrices, times the first, which is the reversed index. */
+/* Returns the second dimension of Sobol's sequence: Pascal's triangle modulo 2, a product of sparse
+ * matrices, times the first dimension, which is the reversed index. */
 static inline uint32_t shadow_sobol(uint32_t index) {
     uint32_t x = shadow_reverse(index);
     x ^= (x & 0x55555555u) << 1;
@@ -56,7 +57,7 @@ static inline uint32_t shadow_spread(uint32_t x) {
     return (x | x << 1) & 0x55555555u;
 }
 
-/* The even bits of a number below 1024 side by side: x of a number along the curve. */
+/* Gathers the even bits of a number below 1024: its x coordinate on the Morton curve. */
 static inline uint32_t shadow_column(uint32_t n) {
     uint32_t x = n & 0x155;
     x = (x | x >> 1) & 0x133;
@@ -64,8 +65,8 @@ static inline uint32_t shadow_column(uint32_t n) {
     return (x | x >> 4) & 0x1f;
 }
 
-/* Where the rays of a pixel begin in the sequence, and which scrambling of it is theirs: one for
- * each square of SHADOW_TILE pixels. */
+/* A pixel's first index in the sequence, and its scrambling, one for each square of SHADOW_TILE
+ * pixels. */
 enum { SHADOW_TILE = 1024 };
 typedef struct shadow_sequence {
     uint32_t first, seed;
@@ -78,7 +79,8 @@ static inline shadow_sequence shadow_sequence_of(uint32_t x, uint32_t y, uint32_
     return (shadow_sequence) { morton * rays, shadow_hash(seed, tile) };
 }
 
-/* Three numbers in 0 … 1 of ray number `ray`: which light, and where on it. */
+/* Draws three numbers in 0 … 1 for ray number `ray`: one to choose the light, two for the position
+ * on it. */
 static inline void shadow_draw(const shadow_sequence *s, uint32_t ray, float u[3]) {
     const uint32_t index = s->first + ray, seed = s->seed;
     const uint32_t shuffled = shadow_scramble(index, shadow_hash(seed, 3));

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/shadow/source.h"
 
+#include "app/render/shadow/area.h"
 #include "app/render/shadow/toward.h"
 #include "app/render/shadow/turn.h"
-#include "app/trace/wide.h"
+#include "app/scene/trace/wide.h"
 
 /* --- the sources ------------------------------------------------------------------------------ */
 
@@ -13,8 +14,8 @@ static shadow_source source_of(shadow_kind kind, lmp_rgb color) {
                              .brightness = (color.r + color.g + color.b) / 3 };
 }
 
-static shadow_source near_source(const lmp_packed_light *light) {
-    const bool sphere = light->form == LMP_FORM_SPHERE;
+static shadow_source near_source(const lmpi_packed_light *light) {
+    const bool sphere = light->form == LMPI_FORM_SPHERE;
     shadow_source source = source_of(sphere ? SHADOW_SPHERE : SHADOW_POINT, light->color);
     source.light = *light;
     return source;
@@ -27,8 +28,8 @@ static shadow_source far_source(lmp_vec3 axis, float one_minus_cos, lmp_rgb colo
     return source;
 }
 
-/* What shines in the cap, and around it. */
-static size_t add_cap(const lmp_packed_light *cap, shadow_source *sources) {
+/* Adds the sources of a cap: the light inside it, and the light around it. */
+static size_t add_cap(const lmpi_packed_light *cap, shadow_source *sources) {
     const lmp_rgb far = cap->ambient,
                   near = { cap->color.r + far.r, cap->color.g + far.g, cap->color.b + far.b };
     const shadow_source inside = far_source(cap->at, cap->size, near);
@@ -41,20 +42,31 @@ static size_t add_cap(const lmp_packed_light *cap, shadow_source *sources) {
     return count;
 }
 
-static size_t add_light(const lmp_light *light, shadow_source *sources) {
-    lmp_packed_light packed;
-    lmp_light_pack(light, &packed);
-    if (packed.form == LMP_FORM_CAP)
+static shadow_source area_source(const lmp_light *light, scene_emitter *area) {
+    shadow_source source = source_of(SHADOW_AREA, light->radiance);
+    scene_emitter_set(light, area);
+    source.area = area;
+    return source;
+}
+
+static size_t add_light(const lmp_light *light, scene_emitter *area, shadow_source *sources) {
+    lmpi_packed_light packed;
+    if (scene_light_is_area(light)) {
+        sources[0] = area_source(light, area);
+        return 1;
+    }
+    lmpi_light_pack(light, &packed);
+    if (packed.form == LMPI_FORM_CAP)
         return add_cap(&packed, sources);
     sources[0] = packed.fixed ? far_source(packed.at, 0, packed.color) : near_source(&packed);
     return 1;
 }
 
 size_t shadow_sources_make(const scene_light *lights, size_t count, const shadow_around *around,
-                           shadow_source *sources) {
+                           scene_emitter *areas, shadow_source *sources) {
     size_t made = 0;
     for (size_t i = 0; i < count; i++)
-        made += add_light(&lights[i].emitter, sources + made);
+        made += add_light(&lights[i].emitter, &areas[i], sources + made);
     if (around) {
         sources[made] = source_of(SHADOW_AROUND, around->mean);
         sources[made++].around = around;
@@ -64,20 +76,20 @@ size_t shadow_sources_make(const scene_light *lights, size_t count, const shadow
 
 /* --- from a point ----------------------------------------------------------------------------- */
 
-static float falloff_of(const lmp_packed_light *light, lmp_vec3 axis) {
-    return light->form == LMP_FORM_CONE ? lmp_cone_falloff(light, vec_scale(axis, -1)) : 1;
+static float falloff_of(const lmpi_packed_light *light, lmp_vec3 axis) {
+    return light->form == LMPI_FORM_CONE ? lmpi_cone_falloff(light, vec_scale(axis, -1)) : 1;
 }
 
 static float sine_of(float one_minus_cos) {
     return one_minus_cos < 1 ? sqrtf(one_minus_cos * (2 - one_minus_cos)) : 1;
 }
 
-/* Without a branch, so that loops become vectors. */
+/* Returns the maximum without a branch, so that loops are vectorized. */
 static float larger(float a, float b) {
     return 0.5f * (a + b + fabsf(a - b));
 }
 
-/* Caps beside each other, and the irradiance across them over pi. */
+/* Caps side by side, and their irradiance over pi. */
 typedef struct cap_lanes {
     shadow_vectors axis;
     shadow_lanes sine, power;
@@ -115,6 +127,18 @@ static void see_point(const shadow_source *source, const shadow_points *p, cap_l
     }
 }
 
+static void see_area(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
+    const scene_emitter *area = source->area;
+    const float least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const lmp_vec3 to = vec_sub(area->center, shadow_lane(&p->position, i));
+        const float scale = 1 / sqrtf(larger(vec_dot(to, to), least));
+        shadow_set_lane(&caps->axis, i, vec_scale(to, scale));
+        caps->sine[i] = 1 - larger(1 - area->extent * scale, 0);
+        caps->power[i] = source->brightness * shadow_area_power(area, to);
+    }
+}
+
 static void see_far(const shadow_source *source, cap_lanes *caps) {
     const float solid_angle = 2 * PI * source->one_minus_cos;
     for (int i = 0; i < SHADOW_LANES; i++) {
@@ -126,7 +150,8 @@ static void see_far(const shadow_source *source, cap_lanes *caps) {
     }
 }
 
-/* A cap's part above the horizon, about (cos + sine) / (1 + sine), and a lobe that it widens. */
+/* Computes weights of caps: the part above the horizon, about (cos + sine) / (1 + sine), and the
+ * specular lobe, widened by the cap. */
 static void weigh_caps(const cap_lanes *caps, const shadow_points *p, float *weights) {
     const shadow_lanes *n = p->normal.of, *m = p->mirror.of, *axis = caps->axis.of;
     for (int i = 0; i < SHADOW_LANES; i++) {
@@ -141,7 +166,7 @@ static void weigh_caps(const cap_lanes *caps, const shadow_points *p, float *wei
     }
 }
 
-/* Adds what coats reflect. */
+/* Adds the light that coats reflect. */
 static void weigh_coats(const cap_lanes *caps, const shadow_points *p, float *weights) {
     const shadow_lanes *n = p->coat_normal.of, *m = p->coat_mirror.of, *axis = caps->axis.of;
     for (int i = 0; i < SHADOW_LANES; i++) {
@@ -154,22 +179,37 @@ static void weigh_coats(const cap_lanes *caps, const shadow_points *p, float *we
     }
 }
 
+/* Adds the light that is transmitted from behind. */
+static void weigh_backs(const cap_lanes *caps, const shadow_points *p, float *weights) {
+    const shadow_lanes *n = p->normal.of, *axis = caps->axis.of;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float along = n[0][i] * axis[0][i] + n[1][i] * axis[1][i] + n[2][i] * axis[2][i];
+        const float s = caps->sine[i], facing = larger(s - along, 0) * (1 - 0.5f * s);
+        weights[i] += caps->power[i] * p->through[i] * facing;
+    }
+}
+
 static void weigh(const shadow_source *source, const shadow_points *p, float *weights) {
     cap_lanes caps;
     if (source->kind == SHADOW_AROUND) {
         for (int i = 0; i < SHADOW_LANES; i++)
-            weights[i] = source->brightness * PI * (p->albedo[i] + p->shine[i] + p->coat[i]);
+            weights[i] =
+                source->brightness * PI * (p->albedo[i] + p->shine[i] + p->coat[i] + p->through[i]);
         return;
     }
     if (source->kind == SHADOW_SPHERE)
         see_sphere(source, p, &caps);
     else if (source->kind == SHADOW_POINT)
         see_point(source, p, &caps);
+    else if (source->kind == SHADOW_AREA)
+        see_area(source, p, &caps);
     else
         see_far(source, &caps);
     weigh_caps(&caps, p, weights);
     if (p->coated)
         weigh_coats(&caps, p, weights);
+    if (p->translucent)
+        weigh_backs(&caps, p, weights);
 }
 
 TRACE_WIDE void shadow_sources_weigh(const shadow_source *sources, size_t count,
@@ -187,14 +227,14 @@ TRACE_WIDE void shadow_sources_weigh(const shadow_source *sources, size_t count,
 
 /* --- directions ------------------------------------------------------------------------------- */
 
-/* The sources, beside each other. */
+/* Sources side by side. */
 typedef struct source_lanes {
-    shadow_vectors at, color; /* the center of what is near, the axis of what is far */
+    shadow_vectors at, color; /* the position of near sources, the axis of far ones */
     shadow_lanes radius;
-    shadow_lanes far; /* one_minus_cos of what is far, -1 of what is near */
+    shadow_lanes far; /* one_minus_cos of far sources, -1 for near ones */
 } source_lanes;
 
-/* The caps that points see of them. */
+/* The caps that sources subtend at the points. */
 typedef struct seen_lanes {
     shadow_vectors axis;
     shadow_lanes distance, one_minus_cos;
@@ -203,8 +243,8 @@ typedef struct seen_lanes {
 static void collect(const shadow_source *const sources[SHADOW_LANES], source_lanes *lanes) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const shadow_source *s = sources[i];
-        const bool near = s->kind == SHADOW_SPHERE || s->kind == SHADOW_POINT;
-        const lmp_vec3 at = near ? s->light.at : s->axis;
+        const bool near = s->kind <= SHADOW_AREA;
+        const lmp_vec3 at = s->area ? s->area->center : near ? s->light.at : s->axis;
         lanes->at.of[0][i] = at.x;
         lanes->at.of[1][i] = at.y;
         lanes->at.of[2][i] = at.z;
@@ -216,7 +256,7 @@ static void collect(const shadow_source *const sources[SHADOW_LANES], source_lan
     }
 }
 
-/* Inside a sphere the cap goes on growing, as in <lampion/light.h>. */
+/* Finds the subtended caps. Inside a sphere the cap goes on growing, as in <lampion/light.h>. */
 static void see(const source_lanes *lanes, const shadow_vectors *positions, seen_lanes *seen) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float x = lanes->at.of[0][i] - positions->of[0][i];
@@ -238,7 +278,7 @@ static void see(const source_lanes *lanes, const shadow_vectors *positions, seen
     }
 }
 
-/* Off the axis by the part u of the cap, the part v of a turn around it. */
+/* Samples directions in the caps: off the axis by the fraction u, around it by the fraction v. */
 static void leave_axis(const seen_lanes *seen, const shadow_lanes u, const shadow_lanes v,
                        shadow_vectors *direction) {
     for (int i = 0; i < SHADOW_LANES; i++)
@@ -247,15 +287,15 @@ static void leave_axis(const seen_lanes *seen, const shadow_lanes u, const shado
             shadow_leave(shadow_lane(&seen->axis, i), u[i] * seen->one_minus_cos[i], v[i]));
 }
 
-/* To the near side of a sphere, from inside it to the far one. */
+/* Finds the rays' lengths: to the near side of a sphere or, from inside it, to the far side. */
 static void end_rays(const source_lanes *lanes, const seen_lanes *seen, const shadow_lanes u,
                      float *length) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float distance = seen->distance[i], r = lanes->radius[i];
         const float t = u[i] * seen->one_minus_cos[i], along = distance * (1 - t);
         const float off = distance * sqrtf(t * (2 - t));
-        const float half = sqrtf(larger((r - off) * (r + off), 0));
-        const float near = larger(distance < r ? along + half : along - half, 0);
+        const float half_chord = sqrtf(larger((r - off) * (r + off), 0));
+        const float near = larger(distance < r ? along + half_chord : along - half_chord, 0);
         length[i] = lanes->far[i] < 0 ? near : INFINITY;
     }
 }
@@ -280,13 +320,24 @@ static TRACE_WIDE void draw_caps(const source_lanes *lanes, const shadow_vectors
     bring_light(lanes, seen, samples);
 }
 
-/* A point's cap is a single direction. */
+/* Samples a point light, whose cap is a single direction. */
 static void draw_point(const shadow_source *source, const seen_lanes *seen, int lane,
                        shadow_samples *samples) {
     const float held = fmaxf(seen->distance[lane], LMP_POINT_DISTANCE_MIN);
     const float falloff = falloff_of(&source->light, shadow_lane(&seen->axis, lane));
     const lmp_rgb arrives = rgb_scale(source->color, falloff / (held * held));
     shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
+}
+
+static void draw_area(const shadow_source *source, const shadow_vectors *positions, float u,
+                      float v, int lane, shadow_samples *samples) {
+    const shadow_area_sample drawn =
+        shadow_area_draw(source->area, shadow_lane(positions, lane), u, v);
+    const lmp_rgb arrives = rgb_scale(source->color, drawn.solid_angle);
+    shadow_set_lane(&samples->direction, lane, drawn.direction);
+    shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
+    samples->length[lane] = drawn.length;
+    samples->size[lane] = drawn.size;
 }
 
 static void draw_around(const shadow_source *source, const shadow_points *points, float u, float v,
@@ -312,6 +363,8 @@ void shadow_sources_draw(const shadow_source *const sources[SHADOW_LANES],
     for (int i = 0; i < SHADOW_LANES; i++) {
         if (sources[i]->kind == SHADOW_POINT)
             draw_point(sources[i], &seen, i, samples);
+        if (sources[i]->kind == SHADOW_AREA)
+            draw_area(sources[i], positions, u[i], v[i], i, samples);
         if (sources[i]->kind == SHADOW_AROUND)
             draw_around(sources[i], points, u[i], v[i], i, samples);
     }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* turn.h - directions around an axis. */
-#ifndef LAMPION_SHADOW_TURN_H
-#define LAMPION_SHADOW_TURN_H
+#ifndef LAMPION_RENDER_SHADOW_TURN_H
+#define LAMPION_RENDER_SHADOW_TURN_H
 
 #include "app/scene/vector.h"
 
-/* Of an angle in parts of a circle, 0 … 1, within 4e-7: by their series in the eighth of a circle
- * on either side of the nearest quarter. */
+/* Computes sine and cosine of a fraction of a circle, 0 … 1, within 4e-7: by their series within an
+ * eighth of a circle of the nearest quarter. */
 static inline void shadow_sine_cosine(float part, float *sine, float *cosine) {
     const int quarter = (int)(4 * part + 0.5f);
     const float x = (4 * part - (float)quarter) * (PI / 2), x2 = x * x;
@@ -17,8 +17,8 @@ static inline void shadow_sine_cosine(float part, float *sine, float *cosine) {
     *cosine = (quarter + 1) & 2 ? -right : right;
 }
 
-/* A unit direction off a unit axis by 1 - cosine t, and by the part v of a turn around it: in an
- * orthonormal basis without branches at the poles (Duff et al. 2017). */
+/* Returns a unit direction off a unit axis by 1 - cosine t, and by the fraction v of a circle
+ * around it, in an orthonormal basis without branches at the poles (Duff et al. 2017). */
 static inline lmp_vec3 shadow_leave(lmp_vec3 axis, float t, float v) {
     const float x = axis.x, y = axis.y, z = axis.z, off = sqrtf(t * (2 - t));
     const float sign = copysignf(1, z), a = -1 / (sign + z), b = x * y * a;

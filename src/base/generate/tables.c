@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes src/base/tables.c to standard output. Only +, -, *, / and sqrt, all rounded correctly by
- * IEEE 754, so every machine writes the same bytes. What it writes is kept in the tree, for a cross
- * build could not run it. */
+/* Writes src/base/tables.c to standard output, using only +, -, *, / and sqrt, which IEEE 754
+ * rounds correctly, so that every machine writes the same bytes. The result is kept in the tree,
+ * because a cross build could not run this program. */
 #include "src/base/tables.h"
+#include "src/base/tables_few.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -93,7 +94,8 @@ static double zonal_scale(int form, int l) {
 
 /* --- a quarter turn around x ------------------------------------------------------------------ */
 
-/* d^l_mk of a quarter turn, m >= 0, by the recurrence of src/sh/rotation.c from l = max(m, |k|). */
+/* Computes d^l_mk of a quarter turn, m >= 0, by the recurrence of src/sh/rotation.c from l = max(m,
+ * |k|). */
 static double quarter_wigner(int l, int m, int k) {
     const int first = m > abs(k) ? m : abs(k), other = m > abs(k) ? k : k < 0 ? -m : m;
     double before = 0, now = 1, root = 0;
@@ -117,7 +119,7 @@ static double quarter_wigner(int l, int m, int k) {
     return now;
 }
 
-/* The cosine of so many quarters of a turn. */
+/* Returns the cosine of so many quarter turns. */
 static int quarter_cosine(int quarters) {
     const int of[4] = { 1, 0, -1, 0 };
     return of[((quarters % 4) + 4) % 4];
@@ -126,7 +128,8 @@ static int quarter_sine(int quarters) {
     return quarter_cosine(quarters - 1);
 }
 
-/* Row m, column k of band l's matrix: x by a quarter is z by -a quarter, y by one, z by one. */
+/* Returns row m, column k of band l's matrix. A quarter turn around x is one around z by -90
+ * degrees, one around y, and one around z. */
 static double quarter(int l, int m, int k) {
     const int am = abs(m), ak = abs(k), sum = ak - am, difference = -am - ak;
     const double p = quarter_wigner(l, am, ak);
@@ -145,113 +148,40 @@ static double quarter(int l, int m, int k) {
                  : p * quarter_cosine(sum) - s * quarter_cosine(difference);
 }
 
-/* --- triple products -------------------------------------------------------------------------- */
+/* --- products of few bands -------------------------------------------------------------------- */
 
-enum { DEGREES = 3 * LMP_TABLE_TRIPLE_BANDS }; /* of a product of three, and more */
-
-/* Coefficients of a polynomial in z. */
-typedef struct polynomial {
-    double at[DEGREES];
-} polynomial;
-
-static polynomial times(const polynomial *a, const polynomial *b) {
-    polynomial product = { { 0 } };
-    for (int i = 0; i < DEGREES; i++)
-        for (int j = 0; i + j < DEGREES; j++)
-            product.at[i + j] += a->at[i] * b->at[j];
-    return product;
+/* Computes height i of Gauss's rule and its weight; heights of the first half lie above 0, and
+ * those of the second are their opposites. Newton's last steps from the estimate change only the
+ * last bits. */
+static double product_height(int i, double *weight) {
+    enum { HEIGHTS = LMPI_TABLE_PRODUCT_HEIGHTS };
+    static const double estimates[HEIGHTS / 2] = { 0.96, 0.8, 0.53, 0.18 };
+    double x = estimates[i % (HEIGHTS / 2)], slope = 1;
+    for (int step = 0; step < 6; step++) {
+        double before = 0, now = 1;
+        for (int l = 0; l < HEIGHTS; l++) {
+            const double next = ((2 * l + 1) * x * now - l * before) / (l + 1);
+            before = now;
+            now = next;
+        }
+        slope = HEIGHTS * (x * now - before) / (x * x - 1);
+        x -= now / slope;
+    }
+    *weight = 2 / ((1 - x * x) * slope * slope);
+    return i < HEIGHTS / 2 ? x : -x;
 }
 
-/* q_l^m (tables.h). */
-static polynomial column_of(int l, int m) {
-    polynomial before = { { 0 } }, now = { { diagonal(m) } };
+/* Computes q_l^m r^m (tables.h), with r the radius of the circle at height z. */
+static double product_column(int l, int m, double z) {
+    double before = 0, now = diagonal(m);
+    for (int i = 0; i < m; i++)
+        now *= sqrt((1 - z) * (1 + z));
     for (int k = m + 1; k <= l; k++) {
-        polynomial next = { { 0 } };
-        for (int i = 0; i < DEGREES; i++)
-            next.at[i] = (i > 0 ? recurrence_a(k, m) * now.at[i - 1] : 0) +
-                         recurrence_b(k, m) * before.at[i];
+        const double next = recurrence_a(k, m) * z * now + recurrence_b(k, m) * before;
         before = now;
         now = next;
     }
     return now;
-}
-
-/* What a product of three of cos(m phi), m >= 0, and sin(-m phi), m < 0, adds up to around z: each
- * is a sum of exp(± i m phi). */
-static double around(const int m[3]) {
-    const int sines = (m[0] < 0) + (m[1] < 0) + (m[2] < 0);
-    double sum = 0;
-    for (int signs = 0; sines % 2 == 0 && signs < 8; signs++) {
-        int frequency = 0, sign = sines ? -1 : 1;
-        for (int i = 0; i < 3; i++) {
-            const int s = signs >> i & 1 ? -1 : 1;
-            frequency += s * abs(m[i]);
-            sign *= m[i] < 0 ? s : 1;
-        }
-        sum += frequency == 0 ? sign : 0;
-    }
-    return 2 * pi * sum / 8;
-}
-
-/* ∫ Y_i Y_j Y_k: the squared radius 1 - z² is there as often as half of all m. */
-static double triple_of(const int index[3]) {
-    const polynomial radius = { { 1, 0, -1 } };
-    polynomial product = { { 1 } };
-    int m[3], power = 0;
-    for (int i = 0; i < 3; i++) {
-        int l = 0;
-        while ((l + 1) * (l + 1) <= index[i])
-            l++;
-        m[i] = index[i] - l * l - l;
-        power += abs(m[i]);
-        const polynomial column = column_of(l, abs(m[i]));
-        product = times(&product, &column);
-    }
-    const double azimuth = around(m);
-    for (int i = 0; azimuth != 0 && i < power / 2; i++)
-        product = times(&product, &radius);
-    double sum = 0;
-    for (int i = 0; i < DEGREES; i += 2)
-        sum += 2 * product.at[i] / (i + 1);
-    return sum * azimuth;
-}
-
-/* Divided by how many orders of i, j, k are the same one. */
-static double triple_share(int i, int j, int k) {
-    const double value = triple_of((int[]) { i, j, k });
-    return i == k ? value / 6 : i == j || j == k ? value / 2 : value;
-}
-
-/* Returns how many there are whose largest index is k; the smallest that is not 0 is above 1e-3. */
-static int print_triples_of(int k, bool print) {
-    int count = 0;
-    for (int j = 0; j <= k; j++)
-        for (int i = 0; i <= j; i++) {
-            const double value = triple_share(i, j, k);
-            if (fabs(value) < 1e-9)
-                continue;
-            if (print)
-                printf("%s{ %d, %d, %d, %.9gf },", count % 4 == 0 ? "\n" : " ", i, j, k,
-                       (double)(float)value);
-            count++;
-        }
-    return count;
-}
-
-static void print_triples(void) {
-    int ends[LMP_TABLE_TRIPLE_BANDS + 1] = { 0 };
-    for (int bands = 1; bands <= LMP_TABLE_TRIPLE_BANDS; bands++) {
-        ends[bands] = ends[bands - 1];
-        for (int k = (bands - 1) * (bands - 1); k < bands * bands; k++)
-            ends[bands] += print_triples_of(k, false);
-    }
-    printf("\nconst int lmp_table_triple_ends[LMP_TABLE_TRIPLE_BANDS + 1] = {");
-    for (int bands = 0; bands <= LMP_TABLE_TRIPLE_BANDS; bands++)
-        printf(" %d,", ends[bands]);
-    printf(" };\n\nconst lmp_table_triple lmp_table_triples[%d] = {", ends[LMP_TABLE_TRIPLE_BANDS]);
-    for (int k = 0; k < LMP_TABLE_TRIPLE_BANDS * LMP_TABLE_TRIPLE_BANDS; k++)
-        print_triples_of(k, true);
-    printf("\n};\n");
 }
 
 /* --- output ----------------------------------------------------------------------------------- */
@@ -270,7 +200,7 @@ static void print_value(int index, double value) {
 }
 
 static void print_triangle(const char *name, double (*entry)(int l, int m)) {
-    printf("\nconst float lmp_table_%s[LMP_TABLE_COUNT] = {", name);
+    printf("\nconst float lmpi_table_%s[LMPI_TABLE_COUNT] = {", name);
     int index = 0;
     for (int m = 0; m < LMP_BANDS_MAX; m++)
         for (int l = m; l < LMP_BANDS_MAX; l++)
@@ -278,15 +208,50 @@ static void print_triangle(const char *name, double (*entry)(int l, int m)) {
     printf("\n};\n");
 }
 
+static void print_few(const char *name, double (*entry)(int l, int m)) {
+    printf("\nconst float lmpi_table_few_%s[LMPI_TABLE_FEW_BANDS][4] = {", name);
+    for (int l = 0; l < LMPI_TABLE_FEW_BANDS; l++) {
+        printf("%s{", l == 0 ? " " : "\n}, ");
+        for (int m = 1; m <= 4; m++)
+            print_value(m - 1, m % 4 < l ? entry(l, m % 4) : 0);
+    }
+    printf("\n} };\n");
+}
+
+static void print_fours(const char *name, const double rows[2][4]) {
+    printf("\nconst float lmpi_table_few_%s[2][4] = { {", name);
+    for (int i = 0; i < 8; i++) {
+        printf("%s", i == 4 ? "\n}, {" : "");
+        print_value(i % 4, rows[i / 4][i % 4]);
+    }
+    printf("\n} };\n");
+}
+
+static void print_few_ends(void) {
+    const double fifth = recurrence_a(5, 4) * diagonal(4);
+    const double side = recurrence_a(2, 1) * diagonal(1), up = recurrence_a(1, 0) * diagonal(0);
+    const double low[4] = { diagonal(0), diagonal(1), up, diagonal(1) };
+    const double high[2][4] = { { diagonal(4), diagonal(4), 0, 0 },
+                                { fifth, fifth, diagonal(5), diagonal(5) } };
+    const double second[2][4] = { { 2 * diagonal(2), side, recurrence_a(2, 0) * up, side },
+                                  { 0, 0, -1 / 3.0, 0 } };
+    printf("\nconst float lmpi_table_few_low[4] = {");
+    for (int i = 0; i < 4; i++)
+        print_value(i, low[i]);
+    printf("\n};\n");
+    print_fours("high", high);
+    print_fours("second", second);
+}
+
 static void print_bands(const char *name, double (*entry)(int l)) {
-    printf("\nconst float lmp_table_%s[LMP_BANDS_MAX] = {", name);
+    printf("\nconst float lmpi_table_%s[LMP_BANDS_MAX] = {", name);
     for (int l = 0; l < LMP_BANDS_MAX; l++)
         print_value(l, entry(l));
     printf("\n};\n");
 }
 
 static void print_scale(void) {
-    printf("\nconst double lmp_table_zonal_scale[2][LMP_BANDS_MAX] = { {");
+    printf("\nconst double lmpi_table_zonal_scale[2][LMP_BANDS_MAX] = { {");
     for (int form = 0; form < 2; form++) {
         for (int l = 0; l < LMP_BANDS_MAX; l++)
             printf("%s%.17g,", l % 4 == 0 ? "\n" : "", zonal_scale(form, l));
@@ -296,18 +261,18 @@ static void print_scale(void) {
 
 static void print_quarters(void) {
     int index = 0;
-    printf("\nconst float lmp_table_quarter[LMP_TABLE_QUARTERS] = {");
-    for (int l = 0; l < LMP_TABLE_QUARTER_BANDS; l++)
+    printf("\nconst float lmpi_table_quarter[LMPI_TABLE_QUARTERS] = {");
+    for (int l = 0; l < LMPI_TABLE_QUARTER_BANDS; l++)
         for (int m = -l; m <= l; m++)
-            for (int k = lmp_table_quarter_first(l, m), n = lmp_table_quarter_count(l, m); n > 0;
+            for (int k = lmpi_table_quarter_first(l, m), n = lmpi_table_quarter_count(l, m); n > 0;
                  n--, k += 2)
                 print_value(index++, quarter(l, m, k));
     printf("\n};\n");
 }
 
 static void print_quarter_lanes(bool lanes) {
-    enum { LANES = LMP_TABLE_QUARTER_LANES };
-    printf("\nconst %s lmp_table_quarter_%s[4][3][LMP_TABLE_QUARTER_LANES] = {",
+    enum { LANES = LMPI_TABLE_QUARTER_LANES };
+    printf("\nconst %s lmpi_table_quarter_%s[4][3][LMPI_TABLE_QUARTER_LANES] = {",
            lanes ? "int32_t" : "float", lanes ? "lanes" : "terms");
     for (int l = 2; l < 6; l++) {
         printf("%s", l == 2 ? " {" : " }, {");
@@ -315,8 +280,8 @@ static void print_quarter_lanes(bool lanes) {
             printf("%s", term == 0 ? " {" : "\n}, {");
             for (int lane = 0; lane < LANES; lane++) {
                 const int m = lane - LANES / 2;
-                const bool is = abs(m) <= l && term < lmp_table_quarter_count(l, m);
-                const int k = is ? lmp_table_quarter_first(l, m) + 2 * term : 0;
+                const bool is = abs(m) <= l && term < lmpi_table_quarter_count(l, m);
+                const int k = is ? lmpi_table_quarter_first(l, m) + 2 * term : 0;
                 if (lanes)
                     printf("%s%d,", lane == 0 ? "\n" : "", LANES / 2 + k);
                 else
@@ -328,14 +293,38 @@ static void print_quarter_lanes(bool lanes) {
     printf(" } };\n");
 }
 
+static void print_product(void) {
+    double weight;
+    printf("\nconst float lmpi_table_product_in[][LMPI_TABLE_PRODUCT_HEIGHTS] = {");
+    for (int m = 0; m < LMPI_TABLE_PRODUCT_BANDS; m++)
+        for (int l = m; l < LMPI_TABLE_PRODUCT_BANDS; l++) {
+            printf("%s{", l + m == 0 ? " " : "\n}, ");
+            for (int i = 0; i < LMPI_TABLE_PRODUCT_HEIGHTS; i++)
+                print_value(i, (m == 0 ? 2 : 1) * product_column(l, m, product_height(i, &weight)));
+        }
+    printf("\n} };\n\nconst float lmpi_table_product_out[][LMPI_TABLE_PRODUCT_HEIGHTS / 2] = {");
+    for (int l = 0; l < LMPI_TABLE_PRODUCT_BANDS; l++)
+        for (int m = -l; m <= l; m++) {
+            printf("%s{", l == 0 ? " " : "\n}, ");
+            for (int i = 0; i < LMPI_TABLE_PRODUCT_HEIGHTS / 2; i++) {
+                const double column = product_column(l, abs(m), product_height(i, &weight));
+                print_value(i, (m == 0 ? pi : pi / 2) * weight * column);
+            }
+        }
+    printf("\n} };\n");
+}
+
 int main(void) {
     printf("/* SPDX-License-Identifier: MIT */\n"
            "/* Written by src/base/generate/tables.c; do not edit. */\n"
            "/* clang-format off */\n"
-           "#include \"src/base/tables.h\"\n");
+           "#include \"src/base/tables.h\"\n#include \"src/base/tables_few.h\"\n");
     print_triangle("a", recurrence_a);
     print_triangle("b", recurrence_b);
     print_bands("diagonal", diagonal);
+    print_few("a", recurrence_a);
+    print_few("b", recurrence_b);
+    print_few_ends();
     print_triangle("monic", monic);
     print_triangle("norm", norm);
     print_triangle("slope", slope);
@@ -350,6 +339,6 @@ int main(void) {
     print_quarters();
     print_quarter_lanes(false);
     print_quarter_lanes(true);
-    print_triples();
+    print_product();
     return 0;
 }

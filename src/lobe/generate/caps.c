@@ -7,7 +7,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { RINGS = 48, RINGS_FEW = 24 }; /* of a cap, and the azimuths of a ring */
+enum { RINGS = 48, RINGS_FEW = 24 }; /* rings of a cap, and azimuths of a ring */
 
 typedef struct quadrature {
     int count;
@@ -18,16 +18,16 @@ static quadrature fine = { .count = RINGS }, coarse = { .count = RINGS_FEW };
 
 void caps_start(void) {
     for (int i = 0; i < RINGS; i++)
-        lmp_gauss_legendre(RINGS, i, &fine.node[i], &fine.weight[i]);
+        lmpi_gauss_legendre(RINGS, i, &fine.node[i], &fine.weight[i]);
     for (int i = 0; i < RINGS_FEW; i++)
-        lmp_gauss_legendre(RINGS_FEW, i, &coarse.node[i], &coarse.weight[i]);
+        lmpi_gauss_legendre(RINGS_FEW, i, &coarse.node[i], &coarse.weight[i]);
 }
 
 /* --- caps ------------------------------------------------------------------------------------- */
 
 /* A cap of half angle a, `to` from a pole, as arcs of circles around the pole: of each the angle to
- * the pole, half the arc, and the weight of the circle. Only what is within `limit` of the pole.
- * The square roots at the two circles that touch the cap go into the variable: in psi, with
+ * the pole, half the arc, and the weight of the circle. Only directions within `limit` of the pole
+ * count. The square roots at the two circles that touch the cap go into the variable: in psi, with
  * theta = to + a sin psi, Gauss-Legendre converges exponentially. */
 typedef struct ring {
     double z, sine, half_arc, weight;
@@ -74,7 +74,8 @@ static void ggx_add(const ggx_view *view, double x, double y, double z, double w
     value[2] += weight * schlick * z / pi;
 }
 
-/* Reflected radiance of a cap of radiance 1 around (sin t cos p, sin t sin p, cos t). */
+/* Computes the reflected radiance of a cap of radiance 1 around (sin t cos p, sin t sin p, cos t).
+ */
 void caps_ggx(const ggx_view *view, double t, double p, double a, double value[3]) {
     const quadrature *q = view->alpha < 0.25 ? &fine : &coarse;
     ring rings[2 * RINGS];
@@ -95,7 +96,8 @@ void caps_ggx(const ggx_view *view, double t, double p, double a, double value[3
     }
 }
 
-/* The same of a whole sky, over visible normals (Heitz 2018), which no roughness makes peaked. */
+/* Computes the reflected radiance of a whole sky of radiance 1, over visible normals (Heitz 2018),
+ * whose integrand no roughness makes peaked. */
 void caps_ggx_sky(const ggx_view *view, double value[3]) {
     const double stretched = hypot(view->alpha * view->sine, view->z);
     const double vx = -view->alpha * view->sine / stretched, vz = view->z / stretched;
@@ -165,7 +167,7 @@ void caps_table_fill(caps_table *table, double alpha, double a) {
         }
 }
 
-/* Weights of four neighbors, and their derivatives: Catmull-Rom. */
+/* Computes the Catmull-Rom weights of four neighbors, and their derivatives. */
 static void cubic(double f, double w[4], double d[4]) {
     w[0] = f * (-1 + f * (2 - f)) / 2;
     w[1] = 1 + f * f * (3 * f - 5) / 2;
@@ -177,7 +179,7 @@ static void cubic(double f, double w[4], double d[4]) {
     d[3] = f * (3 * f - 2) / 2;
 }
 
-/* The value, and its derivatives by angle and by log spread. */
+/* Returns the value, and its derivatives by angle and by the log of the spread. */
 void caps_table_at(const caps_table *table, double angle, double spread_log, double result[3]) {
     const double rows = (CAPS_ANGLES - 1) / table->angle_max;
     const double columns = (CAPS_SPREADS - 1) / (CAPS_SPREAD_LOG_MAX - CAPS_SPREAD_LOG_MIN);
@@ -204,9 +206,8 @@ void caps_table_at(const caps_table *table, double angle, double spread_log, dou
 
 /* --- the diffuse part ------------------------------------------------------------------------- */
 
-/* What Schlick's (1 - v·h)^5 takes from a diffuse surface, in all directions: ∫ (1 - v·h)^5 cos /
- * pi.
- */
+/* Computes what Schlick's (1 - v·h)^5 takes from a diffuse surface, in all directions: ∫ (1 -
+ * v·h)^5 cos / pi. */
 double caps_diffuse(double z) {
     const double sine = sqrt(1 - z * z);
     double sum = 0;

@@ -4,7 +4,7 @@
 #ifndef LAMPION_LOBE_GENERATE_CAPS_H
 #define LAMPION_LOBE_GENERATE_CAPS_H
 
-/* Before all else. */
+/* Prepares the quadratures. Call it before all else. */
 void caps_start(void);
 
 /* glTF's specular BRDF seen from (-sine, 0, z). masking: sqrt(alpha² + (1 - alpha²) z²). */
@@ -12,16 +12,16 @@ typedef struct ggx_view {
     double alpha, z, sine, masking;
 } ggx_view;
 
-/* ∫ f_r cos over the cap of half angle a around (sin t cos p, sin t sin p, cos t), and over the
- * whole sky. value: with Fresnel's factor 1 - (1 - v·h)^5, with (1 - v·h)^5, and the same factor of
- * what a white diffuse surface reflects. */
+/* Integrate f_r cos over the cap of half angle a around (sin t cos p, sin t sin p, cos t), and over
+ * the whole sky. value receives the integral with Fresnel's factor 1 - (1 - v·h)^5, the one with (1
+ * - v·h)^5, and the latter factor applied to what a white diffuse surface reflects. */
 void caps_ggx(const ggx_view *view, double t, double p, double a, double value[3]);
 void caps_ggx_sky(const ggx_view *view, double value[3]);
 
-/* The part of light around the normal's cosine / pi in a cap, t from the normal. */
+/* Returns the integral of cosine / pi over a cap at angle t from the normal. */
 double caps_cosine(double t, double a);
 
-/* ∫ (1 - v·h)^5 cos / pi over the sky: what a diffuse surface loses of F90 - F0. */
+/* Returns ∫ (1 - v·h)^5 cos / pi over the sky: what a diffuse surface loses of F90 - F0. */
 double caps_diffuse(double z);
 
 /* What Phong lobes (e+1)/(2 pi) max(t, 0)^e of one alpha give over a cap of one half angle, as a
@@ -34,8 +34,8 @@ typedef struct caps_table {
 } caps_table;
 void caps_table_fill(caps_table *table, double alpha, double a);
 
-/* result: the value at an angle between axis and cap, its derivatives by the angle and by the log
- * of the spread. */
+/* Evaluates the table at an angle between axis and cap. result receives the value, and its
+ * derivatives by the angle and by the log of the spread. */
 void caps_table_at(const caps_table *table, double angle, double spread_log, double result[3]);
 
 #endif

@@ -5,9 +5,10 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define SMALL 1e-3 /* the pull of weights to 0: lobes that nearly cancel stay small */
+#define SMALL 1e-3 /* pulls weights to 0, so that lobes that nearly cancel stay small */
 
-/* The table has spreads, and a fit their logs. */
+/* Computes the mean of lobes as the table is interpolated: it holds spreads, and a fit their logs.
+ */
 void fit_mean(const double *const *lobes, int count, double mean[PARAMETERS],
               double chain[PARAMETERS]) {
     for (int i = 0; i < PARAMETERS; i++) {
@@ -41,7 +42,8 @@ static void accumulate(const fit_problem *problem, const double p[PARAMETERS], e
     }
 }
 
-/* x with (matrix + damping diagonal) x = vector, by Cholesky; false if it is not definite. */
+/* Solves (matrix + damping diagonal) x = vector by Cholesky; returns false if it is not definite.
+ */
 static bool solve(const equations *e, double damping, double x[PARAMETERS]) {
     double l[PARAMETERS][PARAMETERS];
     for (int i = 0; i < PARAMETERS; i++)
@@ -67,7 +69,7 @@ static bool solve(const equations *e, double damping, double x[PARAMETERS]) {
     return true;
 }
 
-/* Parameters at a bound that want to go beyond stay where they are. */
+/* Keeps parameters at a bound that a step would take past it. */
 static void equations_bound(const fit_problem *problem, equations *e, const double p[PARAMETERS]) {
     for (int i = 0; i < PARAMETERS; i++) {
         const bool low = p[i] <= problem->least[i] && e->vector[i] < 0;

@@ -8,7 +8,8 @@
 
 enum { FIT_TERMS_MAX = 9, FIT_OTHERS_MAX = 3 };
 
-/* What the mean of the unknown lobes and of others, as the table is interpolated, should follow. */
+/* What the mean of the unknown lobes and of others should follow, where the table is interpolated.
+ */
 typedef struct fit_term {
     const fit_node *node;
     const double *others[FIT_OTHERS_MAX];
@@ -20,14 +21,14 @@ typedef struct fit_problem {
     fit_term terms[FIT_TERMS_MAX];
     int count;
     double least[PARAMETERS], most[PARAMETERS];
-    double toward[PARAMETERS], pull; /* toward these lobes */
+    double toward[PARAMETERS], pull; /* pulls toward these lobes */
 } fit_problem;
 
-/* The mean of lobes, and how it changes with the first of them. */
+/* Computes the mean of lobes, and how it changes with the first of them. */
 void fit_mean(const double *const *lobes, int count, double mean[PARAMETERS],
               double chain[PARAMETERS]);
 
-/* Improves the lobes p in so many steps. */
+/* Improves the lobes p by `steps` steps. */
 void fit_improve(const fit_problem *problem, double p[PARAMETERS], int steps);
 
 #endif

@@ -20,9 +20,9 @@
 #include <string.h>
 
 enum {
-    VIEWS = LMP_GGX_VIEWS,
-    ROUGHNESSES = LMP_GGX_ROUGHNESSES,
-    FINE_VIEWS = 2 * VIEWS - 1, /* with the places halfway between */
+    VIEWS = LMPI_GGX_VIEWS,
+    ROUGHNESSES = LMPI_GGX_ROUGHNESSES,
+    FINE_VIEWS = 2 * VIEWS - 1, /* with the nodes halfway between */
     FINE_ROUGHNESSES = 2 * ROUGHNESSES - 1
 };
 
@@ -33,12 +33,12 @@ static caps_table tables[FINE_ROUGHNESSES][SIZES + 1];
 static double fits[ROUGHNESSES][VIEWS][PARAMETERS];
 
 static double fine_alpha(int row) {
-    const double least = (double)LMP_GGX_ROUGHNESS_MIN;
+    const double least = (double)LMPI_GGX_ROUGHNESS_MIN;
     const double roughness = least + (1 - least) * row / (FINE_ROUGHNESSES - 1);
     return roughness * roughness;
 }
 
-/* The last column is normal incidence. */
+/* Returns the cosine of a column's view; the last column is normal incidence. */
 static double fine_z(int column) {
     const double root = (double)column / (FINE_VIEWS - 1);
     return root * root;
@@ -57,18 +57,18 @@ static void create_nodes(void) {
 
 /* --- what lobes may be ------------------------------------------------------------------------ */
 
-/* From 0 at `from` to 1 at `until`. */
+/* Rises from 0 at `from` to 1 at `until`. */
 static double ramp(double x, double from, double until) {
     return fmin(fmax((x - from) / (until - from), 0), 1);
 }
 
-/* The column from which a row's lobes from LMP_GGX_LOBES_FEW on have weight 0: smooth surfaces need
- * them from 53 degrees on, rough ones from 41. */
+/* Returns the column from which a row's lobes from LMP_GGX_LOBES_FEW on have weight 0: smooth
+ * surfaces need them from 53 degrees on, rough ones from 41. */
 static int few_column(int row) {
     return row < 17 ? 24 : row < 20 ? row + 7 : 27;
 }
 
-/* They fade towards it. */
+/* Returns the largest weight of the extra lobes, which fade toward that column. */
 static double extra_max(int row, int column) {
     return fmax(0, fmin(3, 0.12 * (few_column(row) - column)));
 }
@@ -157,7 +157,7 @@ static void put(double lobe[4], double height, double spread_log, double f0, dou
     lobe[3] = f90;
 }
 
-/* Lobe k, around the normal, in part taken from the wide one. */
+/* Starts lobe k around the normal, with part of its weight taken from the wide lobe. */
 static void start_around_normal(double p[PARAMETERS], int k, int row) {
     const double alpha = fine_alpha(2 * row), weight = 0.4 * ramp(row, AROUND_NORMAL, 31);
     put(p + 4 * k, 60, -log(1.3 * alpha * alpha), -weight, 0);
@@ -165,8 +165,8 @@ static void start_around_normal(double p[PARAMETERS], int k, int row) {
     p[4 * 2 + 2] += 1.1 * weight;
 }
 
-/* At grazing views: lobes 0 and 3 near the horizon, and lobe 1, 14 degrees from the mirror
- * direction to the normal, vanishes before it becomes the one around the normal. */
+/* Starts lobes at grazing views: 0 and 3 lie near the horizon; lobe 1, 14 degrees from the mirror
+ * direction toward the normal, vanishes before it becomes the one around the normal. */
 static void start_near_horizon(double p[PARAMETERS], int row, int column) {
     const double alpha = fine_alpha(2 * row), z = fine_z(2 * column), toward = 14 * pi / 180;
     const double fade = ramp(-column, -HORIZON, -HORIZON + 3);
@@ -212,7 +212,7 @@ static void start_all_negative(void) {
 
 /* --- sweeps ----------------------------------------------------------------------------------- */
 
-/* What lies halfway to the neighbors, also to those across. */
+/* Adds the nodes halfway to the neighbors, also to those across. */
 static void add_neighbors(fit_problem *problem, int row, int column) {
     int count = 0;
     for (int i = 0; i < 9; i++) {
@@ -235,7 +235,7 @@ static void add_neighbors(fit_problem *problem, int row, int column) {
         problem->toward[k] /= count;
 }
 
-/* Nodes of a color are no neighbors. */
+/* Sweeps the nodes by color: nodes of one color are no neighbors. */
 static void sweep(int first_row, bool negative, double pull, int steps) {
     for (int color = 0; color < 4; color++) {
 #pragma omp parallel for schedule(dynamic)
@@ -251,7 +251,7 @@ static void sweep(int first_row, bool negative, double pull, int steps) {
     }
 }
 
-/* Of the nodes, and of the places halfway between two, and four. */
+/* Reports the errors of the nodes, and of the points halfway between two nodes, and four. */
 static void report(const char *when) {
     double worst[3] = { 0 }, sum[3] = { 0 };
     int at[3] = { 0 }, count[3] = { 0 };
@@ -295,11 +295,12 @@ static void fit_all(void) {
 /* --- output ----------------------------------------------------------------------------------- */
 
 static void print_table(void) {
-    printf("/* SPDX-License-Identifier: MIT */\n"
-           "/* clang-format off */\n"
-           "/* Written by generate/ggx.c: do not edit. */\n"
-           "#include \"src/lobe/ggx_table.h\"\n\n"
-           "const float lmp_ggx_table[LMP_GGX_ROUGHNESSES][LMP_GGX_VIEWS][LMP_GGX_LOBES][4] = {\n");
+    printf(
+        "/* SPDX-License-Identifier: MIT */\n"
+        "/* clang-format off */\n"
+        "/* Written by generate/ggx.c: do not edit. */\n"
+        "#include \"src/lobe/ggx_table.h\"\n\n"
+        "const float lmpi_ggx_table[LMPI_GGX_ROUGHNESSES][LMPI_GGX_VIEWS][LMP_GGX_LOBES][4] = {\n");
     for (int row = 0; row < ROUGHNESSES; row++) {
         printf("  { /* alpha %.4f */\n", fine_alpha(2 * row));
         for (int column = 0; column < VIEWS; column++) {
@@ -312,10 +313,10 @@ static void print_table(void) {
         }
         printf("  },\n");
     }
-    printf("};\n\nconst float lmp_ggx_few[LMP_GGX_ROUGHNESSES] = {\n");
+    printf("};\n\nconst float lmpi_ggx_few[LMPI_GGX_ROUGHNESSES] = {\n");
     for (int row = 0; row < ROUGHNESSES; row++)
         printf("  %d,\n", few_column(row));
-    printf("};\n\nconst float lmp_ggx_diffuse[LMP_GGX_VIEWS] = {\n");
+    printf("};\n\nconst float lmpi_ggx_diffuse[LMPI_GGX_VIEWS] = {\n");
     for (int column = 0; column < VIEWS; column++)
         printf("  %.7ff,\n", caps_diffuse(fine_z(2 * column)));
     printf("};\n");

@@ -8,16 +8,17 @@ static const double pi = 3.14159265358979323846;
 static const double dielectric_f0 = 0.04;
 static const double weight_of_material[MATERIALS] = { 1, 0.5 };
 
-/* At all views, and along the normal, where three lobes can follow what is seen under small caps to
- * a thousandth, but not their tails, too; halfway to the next column little of this is left. */
+/* Weights of cap sizes at all views, and along the normal, where three lobes can follow what is
+ * seen under small caps to a thousandth, but not their tails, too; halfway to the next column
+ * little of this is left. */
 static const double weight_of_size[2][SIZES + 1] = { { 1, 1.8, 0.8, 0.4, 3 },
                                                      { 6, 90, 0.1, 0.05, 8 } };
 
 #define ENERGY_WEIGHT 0.3
-#define HIDDEN_WEIGHT 0.3  /* of caps below the horizon */
-#define NEGATIVE      6    /* what an error counts where the lobes reflect less than nothing */
-#define ALBEDO        0.25 /* of the diffuse base that a dielectric is seen over */
-#define DARK          0.08 /* of the darkest base that its mean Fresnel loss is made up for */
+#define HIDDEN_WEIGHT 0.3  /* weight of caps below the horizon */
+#define NEGATIVE      6    /* weight of an error where the lobes reflect less than nothing */
+#define ALBEDO        0.25 /* albedo of the diffuse base that a dielectric is seen over */
+#define DARK          0.08 /* albedo of the darkest base whose mean Fresnel loss is compensated */
 
 /* --- nodes of the table ----------------------------------------------------------------------- */
 
@@ -27,19 +28,21 @@ double node_cap_size(double alpha, int size) {
     return size == SIZES ? pi / 2 : fmin(wide[size] * alpha, most[size]);
 }
 
-/* 0 for smooth surfaces, 1 for rough ones. */
+/* Returns 0 for smooth surfaces, rising to 1 for rough ones. */
 static double roughly(const fit_node *node) {
     return fmin(fmax((node->view.alpha - 0.1) / 0.3, 0), 1);
 }
 
-/* A large error, in parts of the peak: less of it shows where highlights are small. */
+/* Returns what counts as a large error, relative to the peak: less of it shows where highlights are
+ * small. */
 static double large(const fit_node *node) {
     const double alpha = node->view.alpha, smoothly = fmin(fmax((0.1 - alpha) / 0.05, 0), 1);
     return 0.02 - 0.009 * smoothly + 0.03 * roughly(node);
 }
 
-/* By Fresnel's factor of a value's parts. A dielectric's base is lit less where more is reflected,
- * and drawn by the mean of that: the lobes of rough ones make up for the difference. */
+/* Sets the targets of a cap from the parts of a value by Fresnel's factor. A dielectric's base
+ * receives less light where more is reflected, yet is drawn by the mean of that: the lobes of rough
+ * materials compensate for the difference. */
 static void set_targets(fit_node *node, int cap, const double value[3], double cosine) {
     for (int m = 0; m < MATERIALS; m++) {
         const double f0 = m == 0 ? 1 : dielectric_f0;
@@ -50,7 +53,7 @@ static void set_targets(fit_node *node, int cap, const double value[3], double c
     }
 }
 
-/* Cap k of AZIMUTHS on ring i of DISTANCES around the mirror direction. */
+/* Creates cap k of AZIMUTHS on ring i of DISTANCES around the mirror direction. */
 static void cap_create(fit_node *node, int size, int i, int k) {
     const double a = node_cap_size(node->view.alpha, size);
     const double reach = fmin(2, a + 7 * node->view.alpha);
@@ -71,8 +74,8 @@ static void cap_create(fit_node *node, int size, int i, int k) {
             pow(sin(rho), (1 + roughly(node)) / 2) * (z < -sin(a) ? HIDDEN_WEIGHT : 1);
 }
 
-/* Makes the errors of a size of caps, in parts of its peak, weigh what the size and the material
- * do. */
+/* Scales the errors of one size of caps, relative to its peak, by the weights of size and material.
+ */
 static void scale_weights(fit_node *node, int size, int material) {
     const int count = size == SIZES ? 1 : DISTANCES * AZIMUTHS, first = size * DISTANCES * AZIMUTHS;
     const double toward_normal = pow(node->view.z, 48);
@@ -121,7 +124,7 @@ void equations_add(equations *e, const double row[PARAMETERS], double residual) 
     }
 }
 
-/* What the lobes give of a cap, and its derivatives, for each material. */
+/* What the lobes give for a cap, and the derivatives of that, for each material. */
 typedef struct cap_model {
     double value[MATERIALS], row[MATERIALS][PARAMETERS];
 } cap_model;
@@ -140,7 +143,7 @@ static void model_cap(const fit_node *node, const double p[PARAMETERS],
         const double sine = fmax(sqrt(1 - cosine * cosine), 1e-9);
         double value[3];
         caps_table_at(&node->tables[cap / (DISTANCES * AZIMUTHS)], acos(cosine), q[1], value);
-        /* the axis rotates toward (-z, x) as the height grows */
+        /* The axis rotates toward (-z, x) as the height grows */
         const double rotation = value[1] * (z * d[0] - x * d[1]) / sine * node->view.sine *
                                 node->view.alpha / (length * length);
         for (int m = 0; m < MATERIALS; m++) {
@@ -155,7 +158,7 @@ static void model_cap(const fit_node *node, const double p[PARAMETERS],
     }
 }
 
-/* Adds the errors of a cap: large ones count by their fourth power. */
+/* Adds the errors of a cap; large ones count by their fourth power. */
 static void add_cap(const fit_node *node, int m, int cap, const cap_model *model, double scale,
                     equations *e) {
     const double peak = node->peak[m][cap / (DISTANCES * AZIMUTHS)];
@@ -169,7 +172,7 @@ static void add_cap(const fit_node *node, int m, int cap, const cap_model *model
     equations_add(e, row, weight * error * root);
 }
 
-/* Adds the error of the energy that all caps of a size reflect. */
+/* Adds the error of the energy that all caps of one size reflect. */
 static void add_energy(const fit_node *node, int m, int size, const cap_model *models, double scale,
                        equations *e) {
     double row[PARAMETERS] = { 0 }, error = 0, all = 0;
@@ -205,7 +208,7 @@ void node_add(const fit_node *node, const double p[PARAMETERS], const double cha
 
 double node_error(const fit_node *node, const double p[PARAMETERS]) {
     equations alone = { 0 };
-    const double alike[PARAMETERS] = { 0 }; /* derivatives are of no use */
+    const double alike[PARAMETERS] = { 0 }; /* derivatives are not used */
     node_add(node, p, alike, 1, &alone);
     return sqrt(alone.error / (SIZES * MATERIALS));
 }

@@ -8,7 +8,8 @@
 #include "shade.metal"
 
 int main(int count, char **argument) {
-    std::vector<float4> given(2 * LIGHTS + 3 * SURFACES + TEXELS), values(4 * SURFACES);
+    std::vector<float4> given(2 * LIGHTS + 3 * SURFACES + TEXELS + 11 * AREAS),
+        values(4 * SURFACES);
     FILE *input = count == 3 ? std::fopen(argument[1], "rb") : nullptr;
     if (!input || std::fread(given.data(), sizeof given[0], given.size(), input) != given.size())
         return 1;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* metal.h - what the Metal variants need of Metal's language, for clang as C++14: its vectors, from
- * clang's own, matrices by columns, and functions. Apple's compiler runs on Apple's systems alone.
- */
+/* metal.h - the part of Metal's language that the Metal variants need, for clang as C++14: its
+ * vectors, from clang's own, matrices by columns, and functions. Apple's compiler runs only on
+ * Apple's systems. */
 #ifndef LAMPION_TESTS_GPU_METAL_H
 #define LAMPION_TESTS_GPU_METAL_H
 
@@ -41,6 +41,9 @@ inline int2 make(int2 *, float2 v) {
 #define float4(...) make(static_cast<float4 *>(nullptr), __VA_ARGS__)
 #define int2(...)   make(static_cast<int2 *>(nullptr), __VA_ARGS__)
 
+inline float dot(float2 a, float2 b) {
+    return a.x * b.x + a.y * b.y;
+}
 inline float dot(float3 a, float3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The HLSL variants, as a user includes them: one thread a surface, four values a surface. With WHOLE
- * it calls what reads textures, too. */
+/* The HLSL variants as a user includes them: one thread and four values per surface. With WHOLE it
+ * also calls what reads textures. */
 #define LMP_BANDS 6
 #define LMP_WINDOW LMP_WINDOW_HANNING
 [[vk::binding(0)]] StructuredBuffer<float4> given;
@@ -9,10 +9,13 @@
 #define LMP_LIGHT_SPHERE(i)    given[2 * (i)]
 #define LMP_LIGHT_RADIANCE(i)  given[2 * (i) + 1].rgb
 #define LMP_GGX_TEXEL(i)       given[2 * LIGHTS + 3 * SURFACES + (i)]
+#define LMP_AREA_COUNT         AREAS
+#define LMP_AREA_TEXEL(i, k)   given[2 * LIGHTS + 3 * SURFACES + TEXELS + 11 * (i) + (k)]
 #include "ggx.hlsl"
 #include "lampion.hlsl"
 #include "coat.hlsl"
 #include "coefficients.hlsl"
+#include "area.hlsl"
 #include "probe.hlsl"
 #ifdef WHOLE
 Texture2D<float2> pairs;

@@ -6,6 +6,8 @@
 #define LMP_LIGHT_SPHERE(i)    given[2 * (i)]
 #define LMP_LIGHT_RADIANCE(i)  given[2 * (i) + 1].rgb
 #define LMP_GGX_TEXEL(i)       given[2 * LIGHTS + 3 * SURFACES + (i)]
+#define LMP_AREA_COUNT         AREAS
+#define LMP_AREA_TEXEL(i, k)   given[2 * LIGHTS + 3 * SURFACES + TEXELS + 11 * (i) + (k)]
 #define LMP_PREINTEGRATED_LOBE_PAIR(p)  float2((p).x, 0.0)
 #define LMP_PREINTEGRATED_LOBE_CELL(i)  given[i]
 #define LMP_PREINTEGRATED_LOBE_REMAP(i) given[i].x
@@ -19,13 +21,14 @@ struct lampion {
 #include "lampion.metal"
 #include "coat.metal"
 #include "coefficients.metal"
+#include "area.metal"
 #include "probe.metal"
 #include "preintegrated_lookup.h"
 #include "preintegrated_lobe.metal"
 #include "preintegrated_brdf.metal"
 };
 
-/* Four values of surface i. */
+/* Computes the four values of surface i. */
 inline void shade(constant float4 *given, int i, float4 *values) {
     lampion lit = { given };
     constant float4 *at = given + 2 * LIGHTS + 3 * i;

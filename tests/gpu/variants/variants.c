@@ -21,10 +21,34 @@ typedef struct inputs {
     float light[LIGHTS][2][4];     /* center and radius, radiance */
     float surface[SURFACES][3][4]; /* position and roughness, normal, view */
     float texel[LMP_GGX_TEXELS][4];
+    float area[AREAS][LMP_AREA_TEXELS][4];
 } inputs;
 
 static void set(float to[4], lmp_vec3 v, double w) {
     memcpy(to, (const float[4]) { v.x, v.y, v.z, (float)w }, 4 * sizeof *to);
+}
+
+/* Makes an area of each kind, around which the surfaces are as near as they are far. */
+static void make_areas(lmp_light areas[AREAS]) {
+    static const lmp_light_kind kinds[AREAS] = { LMP_LIGHT_RECTANGLE, LMP_LIGHT_DISK,
+                                                 LMP_LIGHT_TUBE, LMP_LIGHT_POLYGON };
+    for (int i = 0; i < AREAS; i++) {
+        areas[i] = (lmp_light) { .kind = kinds[i],
+                                 .position = { (float)i - 1, 1.5f, -1 },
+                                 .direction = { 0.6f, -0.8f, 0 },
+                                 .radius = 0.3f,
+                                 .two_sided = i > 0,
+                                 .radiance = { 1, 2, (float)i } };
+        if (kinds[i] == LMP_LIGHT_POLYGON) {
+            areas[i].corner_count = 5;
+            for (int k = 0; k < 5; k++)
+                areas[i].corner[k] =
+                    (lmp_vec3) { 0.5f * cosf(1.2f * (float)k), 0, 0.5f * sinf(1.2f * (float)k) };
+        } else {
+            areas[i].half[0] = (lmp_vec3) { 0.7f, 0.2f, 0 };
+            areas[i].half[1] = (lmp_vec3) { 0, 0.1f, 0.4f };
+        }
+    }
 }
 
 static void fill(inputs *given) {
@@ -44,7 +68,11 @@ static void fill(inputs *given) {
         set(given->surface[i][1], normal, 0);
         set(given->surface[i][2], view, 0);
     }
-    lmp_lobe_ggx_texels(given->texel[0]);
+    lmp_lobe_copy_ggx_texels(given->texel[0]);
+    lmp_light areas[AREAS];
+    make_areas(areas);
+    for (int i = 0; i < AREAS; i++)
+        lmp_light_copy_area_texels(&areas[i], given->area[i][0]);
 }
 
 static void read_file(const char *path, void *data, size_t size) {
@@ -77,7 +105,8 @@ static void check(const inputs *given, const float (*values)[4]) {
     const lmp_shade_settings settings = { .bands = BANDS, .window = LMP_WINDOW_HANNING };
     lmp_shade_settings coefficients = settings;
     coefficients.method = LMP_SHADE_COEFFICIENTS;
-    lmp_light lights[LIGHTS] = { { 0 } };
+    lmp_light lights[LIGHTS + AREAS] = { { 0 } };
+    make_areas(lights + LIGHTS);
     for (int i = 0; i < LIGHTS; i++) {
         const float *radiance = given->light[i][1];
         lights[i].position = vec3_of(given->light[i][0]);
@@ -92,9 +121,9 @@ static void check(const inputs *given, const float (*values)[4]) {
                                      .base_color = { 0.9f, 0.6f, 0.3f },
                                      .metallic = 0.7f,
                                      .roughness = given->surface[i][0][3] };
-        const lmp_rgb by_clay = lmp_shade(&settings, &clay, &surface, lights, LIGHTS);
-        const lmp_rgb by_metal = lmp_shade(&settings, &metal, &surface, lights, LIGHTS);
-        const lmp_rgb by_sums = lmp_shade(&coefficients, &metal, &surface, lights, LIGHTS);
+        const lmp_rgb by_clay = lmp_shade(&settings, &clay, &surface, lights, LIGHTS + AREAS);
+        const lmp_rgb by_metal = lmp_shade(&settings, &metal, &surface, lights, LIGHTS + AREAS);
+        const lmp_rgb by_sums = lmp_shade(&coefficients, &metal, &surface, lights, LIGHTS + AREAS);
         float sh[LMP_SH_COUNT(BANDS)];
         lmp_sphere_project(BANDS, lights[0].position, lights[0].radius, surface.position, sh);
         CHECK_WITHIN(agreement(values[0], by_clay), 1e-4);
@@ -107,7 +136,7 @@ static void check(const inputs *given, const float (*values)[4]) {
     }
 }
 
-/* false: the device has no SPIR-V. */
+/* Runs the SPIR-V; returns false if the device does not accept it. */
 static bool run(const char *path, const inputs *given, float (*values)[4], size_t size) {
     static unsigned char code[1 << 20];
     FILE *file = fopen(path, "rb");
@@ -115,7 +144,7 @@ static bool run(const char *path, const inputs *given, float (*values)[4], size_
     const GLsizei length = (GLsizei)fread(code, 1, sizeof code, file);
     fclose(file);
     gpu_context context;
-    cli_error error = { "" };
+    base_error error = { "" };
     if (!gpu_context_create(getenv("LAMPION_TEST_GL_DEVICE"), &context, &error))
         fail_msg("%s", error.text);
     if (!epoxy_has_gl_extension("GL_ARB_gl_spirv")) {

@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/cpu/tiles.h"
+
+#include "app/base/memory.h"
+#include "app/base/timing.h"
+#include "app/render/cpu/shared.h"
+#include "app/render/shade.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { SURFACES, SHADE, SHADOW, STEPS }; /* steps whose time is measured */
+enum { HELD = 5 };                       /* planes that are kept: what is seen, emission, weights */
+
+/* The job of one frame. */
+typedef struct tiles_job {
+    const cpu_drawing *drawing;
+    const shade_job *shade;
+    const render_camera *cameras;  /* of the samples */
+    const render_tiled_pass *pass; /* or NULL */
+    cpu_tiles *kept;
+} tiles_job;
+
+/* The buffers with which a thread draws tiles. */
+typedef struct tile_work {
+    render_surfaces surfaces, first;
+    render_tile tile;
+    void *pass; /* the work that the pass opened for this thread */
+    float rgba[4 * RENDER_TILE_PIXELS], first_rgba[4 * RENDER_TILE_PIXELS];
+    float weighed[4 * RENDER_TILE_PIXELS], sums[4 * RENDER_TILE_PIXELS]; /* the first; all */
+    double now, seconds[STEPS];
+} tile_work;
+
+/* A tile, and the buffers of its samples: the thread's, or those kept for all tiles. */
+typedef struct tile_place {
+    render_rectangle pixels;
+    render_surfaces first, held;
+    float *first_rgba, *rgba, *sums;
+} tile_place;
+
+static void close_work(const tiles_job *job, tile_work *w) {
+    if (!w)
+        return;
+    if (job->pass)
+        job->pass->close(job->drawing->frame->shadow.user, w->pass);
+    render_surfaces_free(&w->surfaces);
+    render_surfaces_free(&w->first);
+    render_tile_free(&w->tile);
+    free(w);
+}
+
+static tile_work *open_work(const tiles_job *job) {
+    const render_materials *const materials = job->drawing->materials;
+    tile_work *w = calloc(1, sizeof *w);
+    if (w && render_surfaces_create(RENDER_TILE, RENDER_TILE, materials, &w->surfaces) &&
+        render_surfaces_share(&w->surfaces) &&
+        (!job->pass || render_surfaces_keep_hits(&w->surfaces)) &&
+        render_surfaces_create(RENDER_TILE, RENDER_TILE, materials, &w->first) &&
+        render_surfaces_keep_smooth(&w->first) &&
+        render_tile_create(RENDER_TILE_PIXELS, &w->tile) &&
+        (!job->pass || (w->pass = job->pass->open(job->drawing->frame->shadow.user))))
+        return w;
+    close_work(job, w);
+    return NULL;
+}
+
+static void note_time(tile_work *w, int step) {
+    const double now = timing_now();
+    w->seconds[step] += now - w->now;
+    w->now = now;
+}
+
+/* Returns the index of a pixel in a tile's planes. */
+static size_t tile_index(int row, int column) {
+    return (size_t)row * RENDER_TILE + (size_t)column;
+}
+
+/* Finds and shades a sample: the first one into its own planes, a later one into the thread's. */
+static const render_surfaces *draw_sample(const tiles_job *job, int sample, tile_place *at,
+                                          tile_work *w) {
+    const cpu_drawing *d = job->drawing;
+    const bool later = sample > 0;
+    const shade_sample before = { &at->first, at->first_rgba };
+    render_surfaces *s = later ? &w->surfaces : &at->first;
+    float *rgba = later ? w->rgba : at->first_rgba;
+    s->x = at->pixels.x;
+    s->y = at->pixels.y;
+    s->hits = w->surfaces.hits;
+    s->first = later ? &at->first : NULL;
+    cpu_set_planes(d, &job->cameras[sample], s);
+    cpu_rays_fill(&d->view, &at->pixels, later ? &at->first : NULL, s);
+    note_time(w, SURFACES);
+    shade_tile(job->shade, s, later ? &before : NULL, &at->pixels, &w->tile, rgba);
+    if (!later && d->samples > 1)
+        cpu_shared_mark(s, rgba, &at->pixels);
+    return s;
+}
+
+static void add_samples(float exposure, const render_surfaces *s, const render_rectangle *pixels,
+                        const float *rgba, float *sums) {
+    for (int row = 0; row < pixels->height; row++)
+        for (int column = 0; column < pixels->width; column++) {
+            const size_t at = tile_index(row, column);
+            cpu_add_sample(exposure, rgba + 4 * at, cpu_blended(s, at), sums + 4 * at);
+        }
+}
+
+static void set_image(const cpu_drawing *d, const render_rectangle *pixels, const float *rgba,
+                      const float *sums) {
+    for (int row = 0; row < pixels->height; row++) {
+        const size_t first =
+            (size_t)(pixels->y + row) * (size_t)d->frame->width + (size_t)pixels->x;
+        for (int column = 0; column < pixels->width; column++) {
+            const size_t at = 4 * tile_index(row, column);
+            cpu_set_pixel(d->samples, rgba + at, sums + at,
+                          d->image->rgb + 3 * (first + (size_t)column));
+        }
+    }
+}
+
+/* --- all samples of a tile at once ------------------------------------------------------------ */
+
+static void weigh_first(float exposure, tile_work *w) {
+    for (size_t at = 0; at < RENDER_TILE_PIXELS; at++)
+        cpu_weigh_sample(exposure, w->first_rgba + 4 * at, cpu_blended(&w->first, at),
+                         w->weighed + 4 * at);
+    memcpy(w->sums, w->weighed, sizeof w->sums);
+}
+
+/* Adds a later sample to the sums; a pixel that is the same as in the first sample has been weighed
+ * already. */
+static void add_later(float exposure, const render_rectangle *pixels, tile_work *w) {
+    for (int row = 0; row < pixels->height; row++)
+        for (int column = 0; column < pixels->width; column++) {
+            const size_t at = tile_index(row, column);
+            float *sum = w->sums + 4 * at;
+            if (w->surfaces.same[at] && !w->surfaces.weight)
+                for (int c = 0; c < 4; c++)
+                    sum[c] += w->weighed[4 * at + (size_t)c];
+            else
+                cpu_add_sample(exposure, w->rgba + 4 * at, cpu_blended(&w->surfaces, at), sum);
+        }
+}
+
+static void draw_alone(const tiles_job *job, int number, tile_work *w) {
+    const cpu_drawing *d = job->drawing;
+    tile_place at = { .pixels = render_tile_at(d->frame->width, d->frame->height, number),
+                      .first = w->first,
+                      .first_rgba = w->first_rgba };
+    for (int i = 0; i < d->samples; i++) {
+        draw_sample(job, i, &at, w);
+        if (i > 0)
+            add_later(d->exposure, &at.pixels, w);
+        else if (d->samples > 1)
+            weigh_first(d->exposure, w);
+        note_time(w, SHADE);
+    }
+    set_image(d, &at.pixels, w->first_rgba, w->sums);
+    note_time(w, SHADE);
+}
+
+/* --- a sample that is looked at, and those after it ------------------------------------------- */
+
+static bool size_kept(const cpu_drawing *d, cpu_tiles *t) {
+    const int count = render_tile_count(d->frame->width, d->frame->height);
+    const size_t pixels = (size_t)count * RENDER_TILE_PIXELS;
+    const size_t planes =
+        d->samples > 1 ? render_surfaces_values(RENDER_TILE, RENDER_TILE, d->materials) : 0;
+    if (t->count == count && t->planes == planes)
+        return true;
+    cpu_tiles_free(t);
+    t->first_rgba = memory_large(4 * pixels * sizeof *t->first_rgba);
+    t->held = memory_large(HELD * pixels * sizeof *t->held);
+    if (planes > 0) {
+        t->first = memory_large((size_t)count * planes * sizeof *t->first);
+        t->smooth = memory_large(pixels * sizeof *t->smooth);
+        t->rgba = memory_large(4 * pixels * sizeof *t->rgba);
+        t->sums = memory_large(4 * pixels * sizeof *t->sums);
+    }
+    if (!t->first_rgba || !t->held ||
+        (planes > 0 && (!t->first || !t->smooth || !t->rgba || !t->sums)))
+        return false;
+    t->count = count;
+    t->planes = planes;
+    return true;
+}
+
+void cpu_tiles_free(cpu_tiles *t) {
+    free(t->first);
+    free(t->smooth);
+    free(t->first_rgba);
+    free(t->held);
+    free(t->rgba);
+    free(t->sums);
+    memset(t, 0, sizeof *t);
+}
+
+static tile_place place_of(const tiles_job *job, int number, const tile_work *w) {
+    const render_frame *frame = job->drawing->frame;
+    const cpu_tiles *t = job->kept;
+    const size_t before = (size_t)number * RENDER_TILE_PIXELS;
+    float *held = t->held + HELD * before;
+    tile_place at = { .pixels = render_tile_at(frame->width, frame->height, number),
+                      .first = w->first,
+                      .first_rgba = t->first_rgba + 4 * before };
+    at.held = (render_surfaces) { .x = at.pixels.x,
+                                  .y = at.pixels.y,
+                                  .width = RENDER_TILE,
+                                  .height = RENDER_TILE,
+                                  .seen = (uint32_t *)(void *)held };
+    for (int c = 0; c < 3; c++)
+        at.held.emission[c] = held + (1 + c) * RENDER_TILE_PIXELS;
+    if (job->drawing->materials->blends)
+        at.held.weight = held + 4 * RENDER_TILE_PIXELS;
+    if (t->planes == 0)
+        return at;
+    render_surfaces_lay(t->first + (size_t)number * t->planes, RENDER_TILE, RENDER_TILE,
+                        job->drawing->materials, &at.first);
+    cpu_set_planes(job->drawing, &job->cameras[0], &at.first);
+    at.first.smooth = t->smooth + before;
+    at.rgba = t->rgba + 4 * before;
+    at.sums = t->sums + 4 * before;
+    return at;
+}
+
+static void hold(const render_surfaces *s, const render_rectangle *pixels, render_surfaces *held) {
+    for (int row = 0; row < pixels->height; row++)
+        for (int column = 0; column < pixels->width; column++) {
+            const size_t i = tile_index(row, column);
+            const render_surfaces *from = render_surfaces_owner(s, i);
+            held->seen[i] = s->seen[i];
+            if (held->weight)
+                held->weight[i] = s->weight[i];
+            for (int c = 0; c < 3; c++)
+                held->emission[c][i] = from->emission[c][i];
+        }
+}
+
+static void look_at(const tiles_job *job, int sample, int number, tile_work *w) {
+    tile_place at = place_of(job, number, w);
+    const render_surfaces *s = draw_sample(job, sample, &at, w);
+    if (sample > 0)
+        memcpy(at.rgba, w->rgba, sizeof w->rgba);
+    note_time(w, SHADE);
+    hold(s, &at.pixels, &at.held);
+    job->pass->look(job->drawing->frame->shadow.user, w->pass, s, &at.pixels);
+    note_time(w, SHADOW);
+}
+
+/* Lets the pass change the samples from the one it looked at to the one before `end`. */
+static void change(const tiles_job *job, int sample, int end, int number, tile_work *w) {
+    const cpu_drawing *d = job->drawing;
+    const void *user = d->frame->shadow.user;
+    tile_place at = place_of(job, number, w);
+    memcpy(w->rgba, sample > 0 ? at.rgba : at.first_rgba, sizeof w->rgba);
+    job->pass->change(user, &at.held, &at.pixels, w->rgba);
+    note_time(w, SHADOW);
+    if (at.sums && sample == 0)
+        memset(at.sums, 0, sizeof w->sums);
+    const render_surfaces *s = &at.held;
+    for (int i = sample;;) {
+        if (at.sums)
+            add_samples(d->exposure, s, &at.pixels, w->rgba, at.sums);
+        if (++i == end)
+            break;
+        s = draw_sample(job, i, &at, w);
+        note_time(w, SHADE);
+        job->pass->change_later(user, w->pass, s, &at.pixels, w->rgba);
+        note_time(w, SHADOW);
+    }
+    if (end == d->samples)
+        set_image(d, &at.pixels, w->rgba, at.sums);
+    note_time(w, SHADE);
+}
+
+/* --- all tiles -------------------------------------------------------------------------------- */
+
+/* Which samples of each tile to draw: all, the one that the pass looks at, or those it changes. */
+typedef enum tiles_step { ALL, LOOK, CHANGE } tiles_step;
+
+static bool run(const tiles_job *job, tiles_step step, int sample, int end, render_times *times) {
+    const int count = render_tile_count(job->drawing->frame->width, job->drawing->frame->height);
+    const double start = timing_now();
+    double surfaces = 0, shade = 0, shadow = 0;
+    bool ok = true;
+#pragma omp parallel reduction(&& : ok) reduction(+ : surfaces, shade, shadow)
+    {
+        tile_work *work = open_work(job);
+        ok = work != NULL;
+#pragma omp for schedule(dynamic)
+        for (int i = 0; i < count; i++) {
+            if (!work)
+                continue;
+            work->now = timing_now();
+            if (step == ALL)
+                draw_alone(job, i, work);
+            else if (step == LOOK)
+                look_at(job, sample, i, work);
+            else
+                change(job, sample, end, i, work);
+        }
+        if (work) {
+            surfaces += work->seconds[SURFACES];
+            shade += work->seconds[SHADE];
+            shadow += work->seconds[SHADOW];
+        }
+        close_work(job, work);
+    }
+    const double sum = surfaces + shade + shadow;
+    if (ok && times && sum > 0) { /* scales the threads' sums to the time that passed */
+        const double scale = 1e3 * (timing_now() - start) / sum;
+        times->surfaces += scale * surfaces;
+        times->shade += scale * shade;
+        times->shadow += scale * shadow;
+    }
+    return ok;
+}
+
+/* Draws the samples that the pass looks at, each followed by the samples up to the next one. */
+static bool run_pass(const tiles_job *job, render_times *times, base_error *error) {
+    const cpu_drawing *d = job->drawing;
+    void *user = d->frame->shadow.user;
+    for (int i = 0, end; i < d->samples; i = end) {
+        for (end = i + 1; end < d->samples && !job->pass->looks(user, end);)
+            end++;
+        if (!job->pass->begin(user, d->frame, i, error))
+            return false;
+        if (!run(job, LOOK, i, i + 1, times))
+            return base_fail(error, NULL, "out of memory");
+        const double start = timing_now();
+        job->pass->mix(user);
+        if (times)
+            times->shadow += 1e3 * (timing_now() - start);
+        if (!run(job, CHANGE, i, end, times))
+            return base_fail(error, NULL, "out of memory");
+    }
+    return true;
+}
+
+bool cpu_tiles_draw(cpu_tiles *kept, const cpu_drawing *d, render_times *times, base_error *error) {
+    const render_frame *frame = d->frame;
+    render_camera *cameras = malloc((size_t)d->samples * sizeof *cameras);
+    shade_job *shade = cameras ? shade_begin(frame, NULL) : NULL;
+    const tiles_job job = { d, shade, cameras, frame->shadow.tiled, kept };
+    bool ok = shade || base_fail(error, NULL, "out of memory");
+    for (int i = 0; ok && i < d->samples; i++)
+        ok = render_camera_set(d->view.scene, frame, i, &cameras[i], error);
+    if (ok && !job.pass)
+        ok = run(&job, ALL, 0, d->samples, times) || base_fail(error, NULL, "out of memory");
+    else if (ok)
+        ok = (size_kept(d, kept) || base_fail(error, NULL, "out of memory for an image of %d x %d",
+                                              frame->width, frame->height)) &&
+             run_pass(&job, times, error);
+    shade_end(shade);
+    free(cameras);
+    return ok;
+}

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+/* surfaces.h - what one sample of a frame's pixels sees: planes of float32, a value per pixel. Rays
+ * or a G-buffer fill them; shading, fields and shadows read them, tile by tile. */
+#ifndef LAMPION_RENDER_SURFACES_H
+#define LAMPION_RENDER_SURFACES_H
+
+#include "app/render/camera.h"
+#include "app/render/materials.h"
+#include "app/scene/environment.h"
+#include "app/scene/trace/rays.h"
+
+/* What a pixel sees: nothing, a light of the frame by its number, or a surface of the material with
+ * that number. */
+#define RENDER_SEES_NOTHING UINT32_MAX
+#define RENDER_SEES_LIGHT   0x80000000u /* plus the light's number */
+
+struct render_surfaces {
+    int x, y, width, height; /* the rectangle of the image's pixels that the planes cover */
+    render_camera camera;
+    const render_frame *frame;
+    const render_materials *materials;
+    const environment *environment; /* NULL: none */
+    bool layered;                   /* whether the planes of layers exist, from coat_normal on */
+    bool translucent;               /* whether the plane of transmitted color exists */
+    void *memory;
+    uint32_t *seen;
+    float *position[3], *normal[3];        /* of surfaces, as are those below */
+    float *base[3], *metallic, *roughness; /* unused where a table replaces the material */
+    float *specular;                       /* a factor on the dielectric's reflection */
+    float *ambient;                        /* fraction of the environment's light that arrives */
+    float *emission[3];                    /* as seen through a coat */
+    float *coat_normal[3], *coat, *coat_roughness; /* of layered materials alone */
+    float *tint[3];                                /* a factor on F0 */
+    float *sheen[3], *sheen_roughness;
+    float *transmitted[3]; /* color of transmitted light, as seen through a coat */
+    float *weight; /* NULL, or in a scene with blended surfaces the weight of a sample that has met
+                      one, and 0 elsewhere (app/scene/trace/blend.h) */
+    trace_hit *hits;  /* also behind lights; NULL for a G-buffer, or if not requested */
+    uint32_t *smooth; /* normals without maps, packed by app/render/cpu/shared.h; or NULL */
+    /* In a later sample: which pixels are the same as in the first one, whose planes have the same
+     * layout. For these, only `seen` and positions are set here. NULL: none. */
+    unsigned char *same;
+    const render_surfaces *first;
+};
+
+/* Creates planes for a rectangle of that size at 0, 0, including those that the materials need.
+ * Returns false if memory ran out. */
+bool render_surfaces_create(int width, int height, const render_materials *materials,
+                            render_surfaces *surfaces);
+void render_surfaces_free(render_surfaces *surfaces);
+
+/* Return the number of values for such planes, and lay them out in memory of the caller's. */
+size_t render_surfaces_values(int width, int height, const render_materials *materials);
+void render_surfaces_lay(float *memory, int width, int height, const render_materials *materials,
+                         render_surfaces *surfaces);
+
+/* Allocate the plane of hits, or of normals, for whoever fills the planes to keep. Return false if
+ * memory ran out. */
+bool render_surfaces_keep_hits(render_surfaces *surfaces);
+bool render_surfaces_keep_smooth(render_surfaces *surfaces);
+
+/* Allocates `same`, so that pixels may be left to `first`, which is to be set. Returns false if
+ * memory ran out. */
+bool render_surfaces_share(render_surfaces *surfaces);
+
+/* Whether a pixel, by its index, is the same as in the first sample. */
+static inline bool render_surfaces_same(const render_surfaces *s, size_t pixel) {
+    return s->same && s->same[pixel];
+}
+
+/* Returns the planes that hold a pixel's surface, except `seen` and its position. */
+static inline const render_surfaces *render_surfaces_owner(const render_surfaces *s, size_t pixel) {
+    return render_surfaces_same(s, pixel) ? s->first : s;
+}
+
+/* How much the normals, and positions, that two samples of a pixel see may differ for them to count
+ * as the same surface. For positions: the squared difference at distance 0, and its growth with the
+ * squared distance. */
+#define RENDER_NORMAL_STEP (1 / 64.0f)
+typedef struct render_nearness {
+    float constant, spread;
+} render_nearness;
+render_nearness render_nearness_of(const render_camera *camera);
+
+/* Returns the index of a pixel of the image in the planes. */
+static inline size_t render_surfaces_at(const render_surfaces *s, int x, int y) {
+    return (size_t)(y - s->y) * (size_t)s->width + (size_t)(x - s->x);
+}
+
+/* A rectangle of an image's pixels. */
+struct render_rectangle {
+    int x, y, width, height;
+};
+
+/* Images are drawn in tiles of at most so many pixels a side. Their pixels lie close to each other:
+ * near the same lights, in few cells of a field. The functions return the number of tiles, and one
+ * of them. */
+enum { RENDER_TILE = 32, RENDER_TILE_PIXELS = RENDER_TILE * RENDER_TILE };
+int render_tile_count(int width, int height);
+render_rectangle render_tile_at(int width, int height, int number);
+
+typedef enum render_kind { RENDER_NONE, RENDER_LIGHT, RENDER_SURFACE } render_kind;
+
+/* Pixels side by side in the library's form. For a kind other than RENDER_SURFACE the other members
+ * are not set; for a surface, radiance = emission + what lmp_shade gives. */
+typedef struct render_tile {
+    unsigned char *kind; /* render_kind */
+    float *position[3], *normal[3], *view[3];
+    float *coat_normal[3]; /* if the surfaces are layered */
+    float *emission[3];
+    bool translucent; /* whether the surfaces are translucent and have this: */
+    float *transmitted[3];
+    float *ambient;
+    lmp_material *material;
+} render_tile;
+bool render_tile_create(int pixels, render_tile *tile);
+void render_tile_free(render_tile *tile);
+
+/* Extracts the pixels of a rectangle, rows from the top; may be called from any thread, each with a
+ * tile of its own. */
+void render_surfaces_tile(const render_surfaces *surfaces, int x, int y, int width, int height,
+                          render_tile *tile);
+
+/* Extracts the kinds, positions, normals and emission of the pixels of a rectangle. */
+void render_surfaces_outline(const render_surfaces *surfaces, const render_rectangle *pixels,
+                             render_tile *tile);
+
+/* Returns the radiance of the light or background that a pixel without a surface sees. */
+lmp_rgb render_surfaces_beyond(const render_surfaces *surfaces, int x, int y);
+
+/* Extracts the pixels of a list of indices in the planes, all of which see a surface. */
+void render_surfaces_pick(const render_surfaces *surfaces, const uint32_t *pixels, size_t count,
+                          render_tile *tile);
+
+/* Extracts the positions of the surfaces in a row, one after another; returns how many there
+ * are. */
+size_t render_surfaces_positions(const render_surfaces *surfaces, int y, render_tile *tile);
+
+/* Returns what the surface of a pixel, by its index, emits. */
+static inline lmp_rgb render_surfaces_emission(const render_surfaces *s, size_t pixel) {
+    return (lmp_rgb) { s->emission[0][pixel], s->emission[1][pixel], s->emission[2][pixel] };
+}
+
+#endif

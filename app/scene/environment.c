@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/scene/environment.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const float pi = 3.14159265f;
+
+/* --- files ------------------------------------------------------------------------------------ */
+
+/* Scales radiances and checks that they are finite and not above SCENE_COLOR_MAX. Negative values
+ * become 0: resampled images ring a little. */
+static bool check_radiance(image *pixels, float strength, const char *path, base_error *error) {
+    const size_t count = 3 * (size_t)pixels->width * (size_t)pixels->height;
+    for (size_t i = 0; i < count; i++) {
+        const float value = pixels->rgb[i] * strength;
+        if (!(fabsf(value) <= SCENE_COLOR_MAX))
+            return base_fail(error, path, "has a pixel (%d, %d) that is not finite, or above 1e19",
+                             (int)(i / 3 % (size_t)pixels->width),
+                             (int)(i / 3 / (size_t)pixels->width));
+        pixels->rgb[i] = value > 0 ? value : 0;
+    }
+    return true;
+}
+
+static bool open_file(const char *path, float strength, image *light, base_error *error) {
+    image pixels;
+    if (!image_read(path, IMAGE_PIXELS_MAX, &pixels, error))
+        return false;
+    bool ok = check_radiance(&pixels, strength, path, error);
+    const bool cross =
+        pixels.width * 3 == pixels.height * 4 || pixels.width * 4 == pixels.height * 3;
+    if (ok && cross) {
+        ok = environment_unfold(&pixels, light, error);
+    } else if (ok && pixels.width == 2 * pixels.height) {
+        *light = pixels;
+        return true;
+    } else if (ok) {
+        ok =
+            base_fail(error, path,
+                      "is %d x %d pixels: no panorama of 2:1, nor a cube map's cross of 4:3 or 3:4",
+                      pixels.width, pixels.height);
+    }
+    image_free(&pixels);
+    return ok;
+}
+
+/* --- the studio ------------------------------------------------------------------------------- */
+
+/* Whether nothing in the scene lights it well, unless the command line chose that. */
+static bool is_dark(const scene *world) {
+    return !world->lights_chosen && !environment_lights_suffice(world);
+}
+
+/* Makes the studio with its front toward the camera that frames the scene by default. */
+static bool open_studio(const environment_options *options, const scene *world, environment *e,
+                        base_error *error) {
+    const scene_camera camera = scene_default_camera(world, 1);
+    const float x = camera.eye[0] - camera.target[0], z = camera.eye[2] - camera.target[2];
+    if (!environment_make_studio(e, error))
+        return false;
+    e->azimuth += x * x + z * z > 0 ? (float)atan2((double)z, (double)x) : pi / 2;
+    e->studio = true;
+    if (!options->name || is_dark(world)) /* no name: chosen because the scene is dark */
+        e->faint = world->light_count;
+    return check_radiance(&e->light, options->strength, "studio", error);
+}
+
+const char *environment_choose(const environment_options *options, const scene *world) {
+    if (options->name)
+        return options->name;
+    if (!is_dark(world))
+        return "none";
+    base_note(world->name,
+              "%s, lit by the built-in studio (--environment, --lights and --random-lights choose "
+              "others)",
+              world->light_count > 0 ? "what glows in it lights little of what is seen"
+                                     : "no lights in it");
+    return "studio";
+}
+
+const char *const environment_ground_names[] = { "auto", "on", "off", NULL };
+
+bool environment_is_file(const char *name) {
+    return strcmp(name, "none") != 0 && strcmp(name, "studio") != 0;
+}
+
+bool environment_open(const environment_options *options, const scene *world, environment *e,
+                      base_error *error) {
+    const char *name = environment_choose(options, world);
+    memset(e, 0, sizeof *e);
+    e->azimuth = -options->rotation * pi / 180;
+    e->ground = options->ground == ENVIRONMENT_GROUND_ON ||
+                (options->ground == ENVIRONMENT_GROUND_SUITS && strcmp(name, "studio") == 0 &&
+                 !scene_is_inside(world));
+    if (strcmp(name, "none") == 0)
+        return true;
+    if (!environment_is_file(name)) {
+        if (open_studio(options, world, e, error))
+            return true;
+    } else if (open_file(name, options->strength, &e->light, error)) {
+        e->backdrop = e->light;
+        return true;
+    }
+    environment_free(e);
+    return false;
+}
+
+void environment_free(environment *e) {
+    if (e->backdrop.rgb != e->light.rgb)
+        image_free(&e->backdrop);
+    image_free(&e->light);
+    free(e->sh);
+    memset(e, 0, sizeof *e);
+}

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT */
+/* up.h - scenes whose third axis points up. */
+#ifndef LAMPION_SCENE_LOAD_UP_H
+#define LAMPION_SCENE_LOAD_UP_H
+
+#include "app/scene/builder.h"
+
+/* Rotates everything in the builder by a quarter turn around x, so that the axis `up` becomes y. */
+void up_stand(scene_builder *builder, int up);
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* rays.h - rays and their hits. */
+#ifndef LAMPION_SCENE_TRACE_RAYS_H
+#define LAMPION_SCENE_TRACE_RAYS_H
+
+#include "app/scene/scene.h"
+
+#include <math.h>
+
+typedef struct trace_bvh trace_bvh;
+
+/* Which triangles stop a ray. */
+typedef enum trace_kind {
+    TRACE_CAMERA, /* triangles seen from a side that is drawn */
+    TRACE_LIGHT   /* all triangles */
+} trace_kind;
+
+/* Rays side by side; lanes of length < 0 hold no ray. */
+#define TRACE_LANES 16
+typedef struct trace_rays {
+    float origin[3][TRACE_LANES], direction[3][TRACE_LANES];
+    float start[TRACE_LANES],
+        length[TRACE_LANES]; /* in lengths of the direction; a hit lies beyond start */
+    bool together;           /* for TRACE_LIGHT: the rays have nearly the same direction */
+} trace_rays;
+
+#define TRACE_NOTHING UINT32_MAX
+typedef struct trace_hit {
+    float distance;    /* in lengths of the direction; INFINITY if nothing is hit */
+    uint32_t instance; /* or TRACE_NOTHING, and the rest is not set */
+    uint32_t triangle; /* of the instance */
+    float u, v;        /* weights of its second and third corner */
+} trace_hit;
+
+static inline trace_hit trace_miss(void) {
+    return (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
+}
+
+/* Returns how far off a surface a ray must start so that rounding does not make it hit that
+ * surface. */
+double trace_lift(const scene *scene);
+
+#endif
