@@ -39,6 +39,7 @@ static void measure_polygon(lmpi_area *flat) {
 }
 
 void lmpi_area_prepare(const lmp_light *light, lmpi_area *area) {
+    assert(lmpi_is_light(light) && lmpi_light_is_area(light));
     area->light = light;
     if (lmpi_area_is_tube(light)) {
         const lmpi_vector half = lmpi_vector_of(light->half[0]);

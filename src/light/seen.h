@@ -44,7 +44,6 @@ static inline void lmpi_seen_close(lmpi_seen *seen) {
 
 /* Sees a light and closes a loop. Inline, because most lights are no areas. */
 static inline void lmpi_light_see(const lmp_light *light, lmp_vec3 point, lmpi_seen *seen) {
-    assert(lmpi_is_light(light) && lmpi_is_point(point));
     if (lmpi_light_is_area(light)) {
         lmpi_area area;
         lmpi_area_prepare(light, &area);
