@@ -29,9 +29,11 @@ static bool glows_alone(const scene *s) {
     return s->light_count > 0;
 }
 
+/* Whether all of an instance glows: where there is an emission map, mostly small spots do. */
 static bool glows(const scene *s, size_t instance) {
-    const float *emission = s->materials[scene_instance_material(s, instance)].emission;
-    return emission[0] + emission[1] + emission[2] > 0;
+    const scene_material *material = &s->materials[scene_instance_material(s, instance)];
+    const float *emission = material->emission;
+    return emission[0] + emission[1] + emission[2] > 0 && material->emission_map.texture < 0;
 }
 
 static bool look_at(const scene *s, const float corners[3][3], lmp_vec3 eye, facing *found) {

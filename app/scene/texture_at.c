@@ -5,6 +5,9 @@
 
 #include <math.h>
 
+/* The most parts of a triangle's side that are looked at for its mean. */
+enum { PARTS_MAX = 64 };
+
 /* Wraps a whole texel coordinate, however large, into the texture. */
 static uint32_t wrap(double texel, uint32_t size, uint32_t mode) {
     const double n = size;
@@ -66,6 +69,41 @@ void texture_at(const scene *world, const scene_texture_use *use, const double u
         for (int c = 0; c < 4; c++) {
             const double v = found.rgba[k][c] / 255.0;
             rgba[c] += found.weights[k] * (srgb && c < 3 ? image_srgb_to_linear(v) : v);
+        }
+}
+
+/* Returns into how many parts a triangle's sides are divided so that a part is about a texel. */
+static int parts_of(const scene *world, const scene_texture_use *use, double (*uv)[2]) {
+    const scene_texture *texture = &world->textures[use->texture];
+    double longest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double u = uv[(i + 1) % 3][0] - uv[i][0], v = uv[(i + 1) % 3][1] - uv[i][1];
+        const double x = (double)use->matrix[0] * u + (double)use->matrix[1] * v,
+                     y = (double)use->matrix[2] * u + (double)use->matrix[3] * v;
+        longest = fmax(longest, hypot(x * texture->width, y * texture->height));
+    }
+    return longest < PARTS_MAX ? (int)longest + 1 : PARTS_MAX;
+}
+
+void texture_mean_at(const scene *world, const scene_texture_use *use, double (*uv)[2],
+                     double rgba[4]) {
+    for (int c = 0; c < 4; c++)
+        rgba[c] = use->texture < 0;
+    if (use->texture < 0)
+        return;
+    /* the middles of n² equal triangles: n (n + 1) / 2 lie as the whole does, the others upside
+     * down */
+    const int n = parts_of(world, use, uv);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < 2 * (n - j) - 1; i++) {
+            const double third = i % 2 ? 2.0 / 3 : 1.0 / 3;
+            const double a = (i / 2 + third) / n, b = (j + third) / n, c = 1 - a - b;
+            const double at[2] = { c * uv[0][0] + a * uv[1][0] + b * uv[2][0],
+                                   c * uv[0][1] + a * uv[1][1] + b * uv[2][1] };
+            double one[4];
+            texture_at(world, use, at, one);
+            for (int k = 0; k < 4; k++)
+                rgba[k] += one[k] / ((double)n * n);
         }
 }
 

@@ -303,6 +303,20 @@ static bool meet(const struct reference_candidate *c, reference_vec point, refer
     return true;
 }
 
+/* Adds what arrives from a candidate in a direction, which it meets at a distance of `meet`. */
+static void add_radiance(const reference_estimator *estimator, const struct reference_candidate *c,
+                         reference_vec point, reference_vec w, double distance, double scale,
+                         double radiance[3]) {
+    const double *color = c->source.color;
+    double there[3] = { color[0], color[1], color[2] };
+    if (c->source.is_area && estimator->emission)
+        estimator->emission((size_t)(c->light - estimator->lights),
+                            reference_add(point, reference_scale(distance / BEFORE_AREA, w)), there,
+                            estimator->emission_user);
+    for (int k = 0; k < 3; k++)
+        radiance[k] += scale * there[k];
+}
+
 /* Returns the density of `w` over all sources (the balance heuristic's denominator, without the
  * lobes); *radiance receives the light that arrives from it. */
 static double accumulate(const reference_estimator *estimator, const plan *p, reference_vec w,
@@ -317,8 +331,7 @@ static double accumulate(const reference_estimator *estimator, const plan *p, re
         density += here;
         if ((c->source.is_area && isinf(distance)) || (estimator->visibility && distance > path))
             continue;
-        for (int k = 0; k < 3; k++)
-            radiance[k] += c->source.color[k];
+        add_radiance(estimator, c, p->surface->position, w, distance, 1, radiance);
     }
     if (estimator->environment) {
         double all_around[3] = { 0 };
@@ -369,17 +382,15 @@ static void accumulate_series(const reference_estimator *estimator, const plan *
     for (int i = 0; i < p->count; i++) {
         const struct reference_candidate *c = &p->candidates[i];
         reference_vec axis = c->source.axis;
-        double scale = 1;
+        double scale = 1, distance = 0;
         if (is_sampled(estimator, &c->source)) {
-            double distance;
             scale = draw_source(c, p->surface->position, reference_random(key, 2 * (uint64_t)i),
                                 reference_random(key, 2 * (uint64_t)i + 1), &axis, &distance);
             if (!(scale > 0) || distance > free_path(estimator, p->surface, axis))
                 continue;
         }
         scale *= reference_series_at(p->surface->limit.bands, c->series, reference_dot(w, axis));
-        for (int k = 0; k < 3; k++)
-            radiance[k] += scale * c->source.color[k];
+        add_radiance(estimator, c, p->surface->position, axis, distance, scale, radiance);
     }
     if (estimator->environment)
         add_environment_series(estimator, p, w, key, radiance);

@@ -10,6 +10,11 @@
 /* Returns how far a ray goes before something opaque blocks it; INFINITY if nothing does. */
 typedef double (*reference_visibility)(reference_vec point, reference_vec direction, void *user);
 
+/* Replaces the radiance of an area, number `light` of the lights, by what it is at a point of it.
+ */
+typedef void (*reference_emission)(size_t light, reference_vec point, double radiance[3],
+                                   void *user);
+
 /* The lights and the environment, as the estimator uses them; one per thread, reused for all
  * pixels. */
 typedef struct reference_estimator {
@@ -19,6 +24,8 @@ typedef struct reference_estimator {
     const reference_environment *environment; /* NULL, or an environment whose power is above 0 */
     reference_visibility visibility;          /* NULL: nothing blocks light */
     void *visibility_user;
+    reference_emission emission; /* NULL: areas are uniform */
+    void *emission_user;
 } reference_estimator;
 
 /* Prepares an estimator of these lights; returns false if memory ran out. Free with

@@ -12,8 +12,7 @@
 /* The data that all pixels share. */
 typedef struct frame {
     const scene *scene;
-    scene_light *lights; /* those that light: of emissive meshes the triangles */
-    size_t light_count;
+    reference_glow glow; /* what lights it: of emissive meshes the triangles */
     const reference_settings *settings;
     const reference_tracer *tracer;
     const reference_environment *environment; /* NULL: none */
@@ -327,7 +326,7 @@ static bool trace_rows(const frame *f, int threads) {
     {
         worker own = { .tabulated = { .coefficients = NULL } };
         const bool mine =
-            reference_estimator_create(&own.estimator, f->lights, f->light_count) &&
+            reference_estimator_create(&own.estimator, f->glow.lights, f->glow.count) &&
             reference_tabulated_create(&own.tabulated, f->settings->materials,
                                        f->settings->materials ? f->scene->material_count : 0);
         if (!mine) {
@@ -335,6 +334,8 @@ static bool trace_rows(const frame *f, int threads) {
             ok = false;
         }
         own.estimator.environment = f->environment;
+        own.estimator.emission = reference_glow_emission;
+        own.estimator.emission_user = (void *)(uintptr_t)&f->glow;
         if (f->settings->shadows) {
             own.estimator.visibility = reference_tracer_free_path;
             own.estimator.visibility_user = (void *)(uintptr_t)f->tracer;
@@ -382,8 +383,7 @@ bool reference_render(const scene *world, const reference_settings *settings, im
     *radiance = *standard_error = (image) { .rgb = NULL };
     bool ok = (reference_environment_create(settings->environment, &around) ||
                base_fail(error, NULL, "out of memory")) &&
-              (reference_glow_lights(world, &f.lights, &f.light_count) ||
-               base_fail(error, NULL, "out of memory")) &&
+              (reference_glow_create(world, &f.glow) || base_fail(error, NULL, "out of memory")) &&
               reference_tracer_create(world, &tracer, error) &&
               image_create(radiance, settings->width, settings->height, error) &&
               image_create(standard_error, settings->width, settings->height, error);
@@ -397,7 +397,7 @@ bool reference_render(const scene *world, const reference_settings *settings, im
     }
     reference_tracer_destroy(tracer);
     reference_environment_free(&around);
-    free(f.lights);
+    reference_glow_free(&f.glow);
     if (!ok) {
         image_free(radiance);
         image_free(standard_error);

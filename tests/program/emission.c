@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Emissive meshes as lights: which shapes are found, which way they face, and how large they are.
  */
-#include "app/scene/load/patches.h"
+#include "app/scene/load/pieces.h"
 #include "app/scene/load/round.h"
 #include "app/scene/vector.h"
 #include "tests/oracle/check.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { TRIANGLES_MAX = 2048, MOST = 40 };
@@ -214,6 +215,51 @@ static void sides_stay_apart(void **state) {
     assert_int_equal(lights[0].two_sided + lights[1].two_sided, 1);
 }
 
+/* Each piece is a run whose triangles keep their order; touching in one corner is enough. */
+static void pieces_are_what_hangs_together(void **state) {
+    (void)state;
+    piece *pieces;
+    size_t count;
+    made.count = 0;
+    for (int i = 0; i < 3; i++) { /* the corners of three triangles, in turn */
+        add(&made, vec(0, 0, 0), vec(1, (float)i, 0), vec(1, (float)i + 1, 0));
+        add(&made, vec(9, 0, 0), vec(10, (float)i, 0), vec(10, (float)i + 1, 0));
+    }
+    add(&made, vec(0, 0, 5), vec(1, 0, 5), vec(0, 1, 5));
+    for (size_t i = 0; i < made.count; i++)
+        made.triangles[i].radiance[0] = (float)i;
+    assert_true(pieces_sort(made.triangles, made.count, &pieces, &count));
+    assert_int_equal(count, 3);
+    const float expected[7] = { 0, 2, 4, 1, 3, 5, 6 };
+    for (int i = 0; i < 7; i++)
+        assert_true(made.triangles[i].radiance[0] == expected[i]);
+    assert_int_equal(pieces[0].count, 3);
+    assert_int_equal(pieces[1].count, 3);
+    assert_int_equal(pieces[2].count, 1);
+    assert_ptr_equal(pieces[1].triangles, made.triangles + 3);
+    assert_ptr_equal(pieces[2].triangles, made.triangles + 6);
+    free(pieces);
+    assert_true(pieces_sort(made.triangles, 0, &pieces, &count));
+    assert_int_equal(count, 0);
+    free(pieces);
+}
+
+/* A patch has the mean radiance of its triangles, by their areas. */
+static void a_patch_has_the_mean_radiance(void **state) {
+    (void)state;
+    lmp_light lights[MOST];
+    made.count = 0;
+    add_quad(&made, vec(0, 0, 0), vec(3, 0, 0), vec(3, 1, 0), vec(0, 1, 0));
+    add_quad(&made, vec(3, 0, 0), vec(4, 0, 0), vec(4, 1, 0), vec(3, 1, 0));
+    for (int i = 0; i < 4; i++)
+        for (int c = 0; c < 3; c++)
+            made.triangles[i].radiance[c] = (float)((i < 2 ? 1 : 5) * (c + 1));
+    assert_int_equal(make(&made, lights), 1);
+    CHECK_WITHIN(fabs((double)lights[0].radiance.r - 2), 1e-6);
+    CHECK_WITHIN(fabs((double)lights[0].radiance.g - 4), 1e-6);
+    CHECK_WITHIN(fabs((double)lights[0].radiance.b - 6), 1e-6);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_shapes_are_one_light),
@@ -221,6 +267,8 @@ int main(void) {
         cmocka_unit_test(a_box_is_six_rectangles_that_shine_outward),
         cmocka_unit_test(long_round_bodies_are_tubes),
         cmocka_unit_test(sides_stay_apart),
+        cmocka_unit_test(pieces_are_what_hangs_together),
+        cmocka_unit_test(a_patch_has_the_mean_radiance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

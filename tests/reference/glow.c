@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Emissive meshes on the CPU and in the reference, against exact values of a white floor. */
+#include "app/image/png.h"
 #include "app/render/renderer/renderer.h"
 #include "app/render/renderer/shadows.h"
 #include "app/truth/reference.h"
@@ -31,9 +32,9 @@ static void add_face(int a, int b, int c, int d) {
 
 /* Loads the mesh over a floor that reflects as Lambert's law says, without a surface that shines.
  */
-static scene load_glow(void) {
+static scene load_glow_by(const char *mtl) {
     static scene_material matte[8];
-    folder_write_text("glow.mtl", materials);
+    folder_write_text("glow.mtl", mtl);
     folder_write_text("glow.obj", text);
     scene world = load(in_folder("glow.obj"));
     assert_true(world.material_count <= 8);
@@ -47,6 +48,10 @@ static scene load_glow(void) {
     }
     world.materials = matte;
     return world;
+}
+
+static scene load_glow(void) {
+    return load_glow_by(materials);
 }
 
 /* A panel 1 x 1 that faces the floor from a height of 3. */
@@ -219,6 +224,176 @@ static void a_bar_lights_the_floor(void **state) {
     scene_free(&world);
 }
 
+/* --- textures --------------------------------------------------------------------------------- */
+
+/* The irradiance from a rectangle x0 … x1, z0 … z1 at a height, at the origin: the sum over its
+ * corners of what lies between them and the point above it. */
+static double corner_irradiance(double a, double b, double height) {
+    const double x = sqrt(a * a + height * height), y = sqrt(b * b + height * height);
+    return 0.5 * (a / x * atan(b / x) + b / y * atan(a / y));
+}
+
+static double rectangle_irradiance(double x0, double x1, double z0, double z1, double height) {
+    return corner_irradiance(x1, z1, height) - corner_irradiance(x0, z1, height) -
+           corner_irradiance(x1, z0, height) + corner_irradiance(x0, z0, height);
+}
+
+/* Writes an emission map whose left part is bright: `bright` of 64 columns. */
+static void write_map(int bright) {
+    static unsigned char rgb[64 * 64 * 3];
+    base_error error;
+    for (int i = 0; i < 64 * 64; i++)
+        memset(rgb + 3 * i, i % 64 < bright ? 255 : 0, 3);
+    assert_true(image_write_png8(rgb, 64, 64, in_folder("map.png"), &error));
+}
+
+static void load_textured(scene *world) {
+    *world = load_glow_by("newmtl floor\nKd 1 1 1\nKs 0 0 0\nNs 0\n"
+                          "newmtl glow\nKd 0 0 0\nKs 0 0 0\nKe 10 10 10\nmap_Ke map.png\n");
+}
+
+/* A panel of which the half at x < 0 is bright. */
+static void write_textured_panel(void) {
+    write_panel();
+    *strstr(text, "f 5 6 7 8") = '\0';
+    strcat(text, "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 5/1 6/2 7/3 8/4\n");
+}
+
+/* In the image a panel has its mean radiance, which at its middle is exact; the reference looks its
+ * texture up. */
+static void a_textured_panel_lights_the_floor(void **state) {
+    (void)state;
+    scene world;
+    double noise;
+    write_textured_panel();
+    write_map(32);
+    load_textured(&world);
+    assert_int_equal(world.light_count, 1);
+    assert_int_equal(world.lights[0].emitter.kind, LMP_LIGHT_RECTANGLE);
+    CHECK_WITHIN(fabs((double)world.lights[0].emitter.radiance.g - 5), 0.05);
+    const scene_camera down = camera_at(0, 2, 1);
+    check(&world, &down, 10 * rectangle_irradiance(-0.5, 0, -0.5, 0.5, 3) / M_PI, 0.01);
+    for (int side = -1; side <= 1; side += 2) {
+        scene_camera beside = camera_at(2 * (float)side, 2, 1);
+        beside.target[0] = 2 * (float)side;
+        const double x = -2.0 * side;
+        const double exact = 10 * rectangle_irradiance(x - 0.5, x, -0.5, 0.5, 3) / M_PI;
+        CHECK_WITHIN(fabs(trace(&world, &beside, &noise) - exact), 4 * noise + 0.01 * exact);
+    }
+    scene_free(&world);
+}
+
+/* Of an atlas on many panels those light that are bright in it. */
+static void dark_parts_of_a_mesh_light_nothing(void **state) {
+    (void)state;
+    scene world;
+    snprintf(text, sizeof text, "%s", floor_obj);
+    strcat(text, "vt 0.05 0.1\nvt 0.1 0.1\nvt 0.1 0.2\nvt 0.6 0.1\nvt 0.7 0.1\nvt 0.7 0.2\n");
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 4; k++)
+            add_vertex(i + (k == 1 || k == 2), 3, k < 2 ? -0.5 : 0.5);
+        const int v = 5 + 4 * i, t = i == 1 ? 1 : 4;
+        snprintf(text + strlen(text), 200, "f %d/%d %d/%d %d/%d %d/%d\n", v, t, v + 1, t + 1, v + 2,
+                 t + 2, v + 3, t);
+    }
+    write_map(32);
+    load_textured(&world);
+    assert_int_equal(world.light_count, 1);
+    CHECK_WITHIN(fabs((double)world.lights[0].emitter.position.x - 1.5), 1e-6);
+    CHECK_WITHIN(fabs((double)world.lights[0].emitter.radiance.r - 10), 1e-5);
+    scene_free(&world);
+    write_map(0);
+    load_textured(&world);
+    assert_int_equal(world.light_count, 0);
+    scene_free(&world);
+}
+
+/* An emission map that cannot be decoded leaves the mesh without light, as it is without glow. */
+static void an_unreadable_map_lights_nothing(void **state) {
+    (void)state;
+    scene world;
+    write_textured_panel();
+    write_map(32);
+    FILE *file = fopen(in_folder("map.png"), "r+b");
+    assert_true(file && fseek(file, 60, SEEK_SET) == 0 && fputs("damaged", file) >= 0);
+    fclose(file);
+    load_textured(&world);
+    assert_int_equal(world.light_count, 0);
+    scene_free(&world);
+}
+
+/* --- pieces ----------------------------------------------------------------------------------- */
+
+/* Adds a ball of 8 x 16 faces, whose vertices are as many as follow each other. */
+static void add_ball(double x, double y, double z, double r, int *vertices) {
+    const int first = *vertices + 1;
+    for (int ring = 0; ring <= 8; ring++)
+        for (int i = 0; i < 16; i++) {
+            const double polar = M_PI * ring / 8, around = 2 * M_PI * i / 16;
+            add_vertex(x + r * sin(polar) * cos(around), y + r * cos(polar),
+                       z - r * sin(polar) * sin(around));
+        }
+    for (int ring = 0; ring < 8; ring++)
+        for (int i = 0; i < 16; i++) {
+            const int a = first + 16 * ring + i, b = first + 16 * ring + (i + 1) % 16;
+            add_face(a, a + 16, b + 16, b);
+        }
+    *vertices += 9 * 16;
+}
+
+/* Balls of one mesh are lights where they are, the strongest first. Their chords make them shine a
+ * little less. */
+static void every_piece_shines_where_it_is(void **state) {
+    (void)state;
+    int vertices = 4;
+    snprintf(text, sizeof text, "%s", floor_obj);
+    add_ball(-3, 2, 0, 0.25, &vertices);
+    add_ball(3, 2, 0, 0.5, &vertices);
+    scene world = load_glow();
+    assert_int_equal(world.light_count, 2);
+    for (int i = 0; i < 2; i++) {
+        const lmp_light *light = &world.lights[i].emitter;
+        assert_int_equal(light->kind, LMP_LIGHT_SPHERE);
+        CHECK_WITHIN(fabs((double)light->position.x - (i ? -3 : 3)), 1e-5);
+        CHECK_WITHIN(fabs((double)light->radius - (i ? 0.25 : 0.5)), 1e-5);
+        CHECK_WITHIN(fabs((double)light->radiance.g - 9.6), 0.3);
+    }
+    /* E = pi L sin²a cos, of both */
+    const scene_camera down = camera_at(0, 1, 1);
+    const double d2 = 3 * 3 + 2 * 2, l = (double)world.lights[0].emitter.radiance.g;
+    check(&world, &down, l * (0.0625 + 0.25) / d2 * 2 / sqrt(d2), 0.02);
+    scene_free(&world);
+}
+
+/* Of a hundred balls the largest have the power of all. */
+static void the_strongest_pieces_have_all_power(void **state) {
+    (void)state;
+    int vertices = 4;
+    double power = 0;
+    snprintf(text, sizeof text, "%s", floor_obj);
+    for (int i = 0; i < 100; i++) { /* tetrahedra whose faces have areas of sqrt(3) / 2 times r² */
+        const double r = i < 50 ? 0.02 : 0.001, x = i % 10, z = (double)(i / 10) / 2;
+        add_vertex(x, 2, z);
+        add_vertex(x + r, 2 + r, z);
+        add_vertex(x + r, 2, z + r);
+        add_vertex(x, 2 + r, z + r);
+        const int a = vertices + 1;
+        snprintf(text + strlen(text), 200, "f %d %d %d\nf %d %d %d\nf %d %d %d\nf %d %d %d\n", a,
+                 a + 1, a + 2, a, a + 2, a + 3, a, a + 3, a + 1, a + 1, a + 3, a + 2);
+        vertices += 4;
+        power += M_PI * 10 * 4 * sqrt(3) / 2 * r * r;
+    }
+    scene world = load_glow();
+    assert_int_equal(world.light_count, 40);
+    double found = 0;
+    for (size_t i = 0; i < world.light_count; i++) {
+        const lmp_light *light = &world.lights[i].emitter;
+        found += (double)lmp_sphere_power_from_radiance(light->radiance.g, light->radius);
+    }
+    CHECK_WITHIN(fabs(found - power), 1e-3 * power);
+    scene_free(&world);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_panel_lights_the_floor),
@@ -226,6 +401,11 @@ int main(void) {
         cmocka_unit_test(a_panel_shows_its_own_radiance),
         cmocka_unit_test(a_tube_lights_the_floor),
         cmocka_unit_test(a_bar_lights_the_floor),
+        cmocka_unit_test(a_textured_panel_lights_the_floor),
+        cmocka_unit_test(dark_parts_of_a_mesh_light_nothing),
+        cmocka_unit_test(an_unreadable_map_lights_nothing),
+        cmocka_unit_test(every_piece_shines_where_it_is),
+        cmocka_unit_test(the_strongest_pieces_have_all_power),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

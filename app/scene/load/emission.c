@@ -2,126 +2,289 @@
 #include "app/scene/load/emission.h"
 
 #include "app/scene/instance.h"
+#include "app/scene/load/emission_map.h"
 #include "app/scene/load/patches.h"
+#include "app/scene/load/pieces.h"
 #include "app/scene/load/round.h"
 #include "app/scene/sides.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
 
-/* The most faces that become lights of their own, and triangles that faces are looked for in. */
-enum { FACES_MOST = 40, TRIANGLES_MOST = 1 << 16 };
+/* The most lights of a mesh, and of all meshes that are more than one light each; the most faces of
+ * one of its pieces, and the most triangles of a piece whose faces are looked for. */
+enum { LIGHTS_MOST = 40, LIGHTS_MOST_ALL = 1024, FACES_MOST = 8, TRIANGLES_MOST = 1 << 16 };
 
-/* An emissive mesh in the world: its triangles that have areas, turned to where they shine. */
+/* A triangle emits nothing below this part of the mesh's brightest: compression blurs black. */
+static const float darkest = 1.0f / 500;
+
+/* The part of a mesh's power that the strongest of its pieces have; the others add theirs to it. */
+static const double strongest_part = 0.99;
+
+/* How much of a piece's surface faces one way if a disk stands for it, rather than a sphere. */
+static const double flat_part = 0.9;
+
+/* An emissive mesh in the world: its triangles that have areas and shine, turned to where. */
 typedef struct glowing {
     patch_triangle *triangles;
     size_t count;
-    size_t both;    /* triangles that shine from both sides */
-    bool closed;    /* whether all belong to bodies and shine outward */
-    double shining; /* area of the sides that light the scene */
+    size_t both; /* triangles that shine from both sides */
 } glowing;
 
-static double triangle_area(const lmp_vec3 corner[3]) {
-    const lmp_vec3 a = vec_sub(corner[1], corner[0]), b = vec_sub(corner[2], corner[0]);
-    return 0.5 * (double)vec_length(vec_cross(a, b));
+/* --- triangles -------------------------------------------------------------------------------- */
+
+static float brightest_of(const float radiance[3]) {
+    return fmaxf(radiance[0], fmaxf(radiance[1], radiance[2]));
 }
 
 /* Adds a triangle. Of a double-sided body the outside shines, whose inside gives its light to
  * itself; another double-sided triangle shines from both sides. */
-static void add_triangle(const scene *s, size_t instance, uint32_t number, bool double_sided,
-                         sides_of side, glowing *g) {
+static void add_triangle(const emission_maps *maps, const scene_material *material, size_t instance,
+                         uint32_t number, bool double_sided, sides_of side, glowing *g) {
     float corners[3][3];
     patch_triangle *t = &g->triangles[g->count];
     const bool turned = double_sided && side == SIDES_INWARD;
-    scene_triangle_positions(s, instance, number, corners);
+    scene_triangle_positions(maps->geometry, instance, number, corners);
     t->both = double_sided && side == SIDES_OPEN;
+    t->outward = turned || side == SIDES_OUTWARD;
     for (int i = 0; i < 3; i++)
         t->corner[i] = vec_load(corners[turned ? 2 - i : i]);
-    const double area = triangle_area(t->corner);
-    g->count += area > 0.0;
-    g->both += area > 0.0 && t->both;
-    g->closed = g->closed && (turned || side == SIDES_OUTWARD);
-    g->shining += t->both ? 2.0 * area : area;
+    emission_maps_mean(maps, material, instance, number, t->radiance);
+    g->count += patch_triangle_area(t) > 0.0;
+}
+
+/* Removes the triangles that are dark beside the brightest. */
+static void remove_dark(glowing *g) {
+    float most = 0.0f;
+    size_t left = 0;
+    for (size_t i = 0; i < g->count; i++)
+        most = fmaxf(most, brightest_of(g->triangles[i].radiance));
+    for (size_t i = 0; i < g->count; i++) {
+        const patch_triangle t = g->triangles[i];
+        if (!(brightest_of(t.radiance) > darkest * most))
+            continue;
+        g->triangles[left++] = t;
+        g->both += t.both;
+    }
+    g->count = left;
 }
 
 /* Collects an emissive mesh; returns false if memory ran out. */
-static bool collect(scene_builder *builder, const scene *s, size_t instance, glowing *g) {
-    const uint32_t mesh = s->instances[instance].mesh;
-    const scene_material *materials = builder_items(builder, BLOB_MATERIALS);
-    const bool double_sided = (materials[s->meshes[mesh].material].flags &
-                               (SCENE_DOUBLE_SIDED | SCENE_SIDES_UNSAID)) == SCENE_DOUBLE_SIDED;
+static bool collect(scene_builder *builder, const emission_maps *maps,
+                    const scene_material *material, size_t instance, glowing *g) {
+    const scene *s = maps->geometry;
+    const bool double_sided =
+        (material->flags & (SCENE_DOUBLE_SIDED | SCENE_SIDES_UNSAID)) == SCENE_DOUBLE_SIDED;
     const uint32_t count = scene_instance_triangles(s, instance);
     sides_of *const sides = malloc((count + 1u) * sizeof *sides);
-    *g = (glowing) { .triangles = malloc((count + 1u) * sizeof *g->triangles), .closed = true };
-    const bool ok = sides && g->triangles && sides_find(builder, mesh, sides);
+    *g = (glowing) { .triangles = malloc((count + 1u) * sizeof *g->triangles) };
+    const bool ok =
+        sides && g->triangles && sides_find(builder, s->instances[instance].mesh, sides);
     for (uint32_t t = 0; ok && t < count; t++)
-        add_triangle(s, instance, t, double_sided, sides[t], g);
+        add_triangle(maps, material, instance, t, double_sided, sides[t], g);
     free(sides);
+    remove_dark(g);
     return ok;
 }
 
+/* --- the light of a piece --------------------------------------------------------------------- */
+
+/* Adds up the radiance of all sides that shine, times their areas. */
+static void sum_power(const piece *p, double power[3]) {
+    power[0] = power[1] = power[2] = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        const patch_triangle *t = &p->triangles[i];
+        for (int c = 0; c < 3; c++)
+            power[c] += (t->both ? 2 : 1) * patch_triangle_area(t) * (double)t->radiance[c];
+    }
+}
+
+/* Gives a light the piece's power, spread over a surface. */
+static void spread(const piece *p, double surface, lmp_light *light) {
+    double power[3];
+    sum_power(p, power);
+    light->radiance = (lmp_rgb) { (float)(power[0] / surface), (float)(power[1] / surface),
+                                  (float)(power[2] / surface) };
+}
+
 /* Makes the sphere around the box of the triangles, shrunk to the farthest corner. */
-static lmp_light sphere_around(const glowing *g) {
+static lmp_light sphere_around(const piece *p) {
     lmp_vec3 low = vec(INFINITY, INFINITY, INFINITY), high = vec_scale(low, -1.0f);
     lmp_light sphere = { .radius = 0.0f };
-    for (size_t i = 0; i < 3 * g->count; i++) {
-        const lmp_vec3 p = g->triangles[i / 3].corner[i % 3];
-        low = vec(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
-        high = vec(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
+    for (size_t i = 0; i < 3 * p->count; i++) {
+        const lmp_vec3 at = p->triangles[i / 3].corner[i % 3];
+        low = vec(fminf(low.x, at.x), fminf(low.y, at.y), fminf(low.z, at.z));
+        high = vec(fmaxf(high.x, at.x), fmaxf(high.y, at.y), fmaxf(high.z, at.z));
     }
     sphere.position = vec_scale(vec_add(low, high), 0.5f);
-    for (size_t i = 0; i < 3 * g->count; i++)
+    for (size_t i = 0; i < 3 * p->count; i++)
         sphere.radius = fmaxf(
-            sphere.radius, vec_length(vec_sub(g->triangles[i / 3].corner[i % 3], sphere.position)));
+            sphere.radius, vec_length(vec_sub(p->triangles[i / 3].corner[i % 3], sphere.position)));
     return sphere;
 }
 
-/* Makes the shapes of the mesh's light, at most FACES_MOST: a tube, its faces, or a sphere. *around
- * is whether they enclose it, and have its power at a lower radiance. Returns false if memory ran
- * out. */
-static bool make_shapes(const glowing *g, lmp_light *shapes, size_t *made, bool *around) {
-    *made = g->count > 0;
-    *around = true;
-    if (g->count == 0 || (g->closed && round_make_tube(g->triangles, g->count, shapes)))
-        return true;
-    *around = false;
-    if (g->count <= TRIANGLES_MOST &&
-        !patches_make(g->triangles, g->count, FACES_MOST, shapes, made))
-        return false;
-    if (*made > 0 && g->count <= TRIANGLES_MOST)
-        return true;
-    *made = 1;
-    *around = true;
-    shapes[0] = sphere_around(g);
+static bool is_body(const piece *p) {
+    for (size_t i = 0; i < p->count; i++)
+        if (!p->triangles[i].outward)
+            return false;
     return true;
 }
 
-/* Returns the radiance, for emission 1, at which a sphere or a tube around the mesh has its power:
- * a sphere has no axis. */
-static double dimmed(const glowing *g, const lmp_light *shape) {
-    const double r = (double)shape->radius, half = (double)vec_length(shape->half[0]);
-    return g->shining / (4.0 * M_PI * r * (r + half));
+/* Makes a disk of a piece that is nearly flat and shines to one side: before all of it, so that
+ * nothing of it is in its light, and of the area that faces its way. */
+static bool make_disk(const piece *p, lmp_light *disk) {
+    const lmp_vec3 first = p->triangles[0].corner[0];
+    lmp_vec3 area = { 0, 0, 0 }, moment = { 0, 0, 0 };
+    double all = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        const patch_triangle *t = &p->triangles[i];
+        const lmp_vec3 a = vec_sub(t->corner[0], first), b = vec_sub(t->corner[1], first),
+                       c = vec_sub(t->corner[2], first);
+        const double one = patch_triangle_area(t);
+        if (t->both)
+            return false;
+        all += one;
+        area = vec_add(area, vec_scale(vec_cross(vec_sub(b, a), vec_sub(c, a)), 0.5f));
+        moment = vec_add(moment, vec_scale(vec_add(a, vec_add(b, c)), (float)one / 3));
+    }
+    const double facing = (double)vec_length(area);
+    if (!(facing > flat_part * all))
+        return false;
+    const lmp_vec3 normal = vec_normalize(area, vec(0, 1, 0)),
+                   middle = vec_add(first, vec_scale(moment, (float)(1 / all)));
+    float before = 0;
+    for (size_t i = 0; i < 3 * p->count; i++)
+        before = fmaxf(before, vec_dot(vec_sub(p->triangles[i / 3].corner[i % 3], middle), normal));
+    *disk = scene_light_disk(vec_add(middle, vec_scale(normal, before)), normal,
+                             (float)sqrt(facing / (double)PI));
+    spread(p, facing, disk);
+    return true;
 }
 
-static bool add_lights(scene_builder *builder, const glowing *g, size_t instance,
-                       const float *emission, const char *subject, base_error *error) {
-    lmp_light shapes[FACES_MOST];
+/* Whether a disk is half as wide as its piece at least, so that it lights what is near alike. */
+static bool is_compact(const piece *p, const lmp_light *disk) {
+    for (size_t i = 0; i < 3 * p->count; i++)
+        if (vec_length(vec_sub(p->triangles[i / 3].corner[i % 3], disk->position)) >
+            2 * disk->radius)
+            return false;
+    return true;
+}
+
+/* Makes the lights of a piece, at most `most`: a tube, its faces, a disk, or a sphere. One of
+ * several is a disk rather than faces. Returns false if memory ran out. */
+static bool make_piece(const piece *p, bool several, size_t most, lmp_light *lights, size_t *made) {
+    const bool few = p->count <= TRIANGLES_MOST;
+    *made = 1;
+    if (is_body(p) && round_make_tube(p->triangles, p->count, lights)) {
+        const double r = (double)lights->radius, half = (double)vec_length(lights->half[0]);
+        spread(p, 4 * (double)PI * r * (r + half), lights);
+        return true;
+    }
+    *made = 0;
+    if (few && !patches_make(p->triangles, p->count, several ? 1 : most, lights, made))
+        return false;
+    if (*made == 0 && several && make_disk(p, lights) && is_compact(p, lights)) {
+        *made = 1;
+        return true;
+    }
+    if (*made == 0 && several && few && !patches_make(p->triangles, p->count, most, lights, made))
+        return false;
+    if (*made > 0)
+        return true;
+    *made = 1;
+    if (make_disk(p, lights))
+        return true;
+    *lights = sphere_around(p);
+    spread(p, 4 * (double)PI * (double)lights->radius * (double)lights->radius, lights);
+    return true;
+}
+
+/* --- the lights of a mesh --------------------------------------------------------------------- */
+
+static double whole_power(const piece *p) {
+    double power[3];
+    sum_power(p, power);
+    return power[0] + power[1] + power[2];
+}
+
+/* A piece and its power, by which pieces are sorted, and its number, by which equal ones are. */
+typedef struct ranked {
+    piece piece;
+    double power;
+    size_t number;
+} ranked;
+
+static int compare_ranked(const void *a, const void *b) {
+    const ranked *p = a, *q = b;
+    if (p->power != q->power)
+        return p->power > q->power ? -1 : 1;
+    return (p->number > q->number) - (p->number < q->number);
+}
+
+/* Moves the strongest pieces to the front, up to `most` or nearly all power, and finds *kept, how
+ * many these are, and *factor, by which their power is that of all. Returns false if memory ran
+ * out. */
+static bool find_strongest(piece *pieces, size_t count, size_t most, size_t *kept, double *factor) {
+    double sum = 0, all = 0;
+    ranked *rank = malloc((count + 1) * sizeof *rank);
+    if (!rank)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        rank[i] = (ranked) { pieces[i], whole_power(&pieces[i]), i };
+        all += rank[i].power;
+    }
+    qsort(rank, count, sizeof *rank, compare_ranked);
+    for (*kept = 0; *kept < count && *kept < most && sum < strongest_part * all; ++*kept) {
+        pieces[*kept] = rank[*kept].piece;
+        sum += rank[*kept].power;
+    }
+    *factor = sum > 0 ? all / sum : 1;
+    free(rank);
+    return true;
+}
+
+static lmp_rgb scaled(lmp_rgb radiance, double factor) {
+    return (lmp_rgb) { (float)(factor * (double)radiance.r), (float)(factor * (double)radiance.g),
+                       (float)(factor * (double)radiance.b) };
+}
+
+/* Makes the lights of a mesh, at most `most`. Returns false if memory ran out. */
+static bool make_lights(glowing *g, size_t most, lmp_light lights[LIGHTS_MOST], size_t *made) {
+    piece *pieces;
+    size_t count;
+    *made = 0;
+    if (!pieces_sort(g->triangles, g->count, &pieces, &count))
+        return false;
+    size_t kept = 0;
+    double factor = 1;
+    bool ok = find_strongest(pieces, count, most, &kept, &factor);
+    for (size_t i = 0; ok && i < kept; i++) {
+        const size_t room = most - *made - (kept - 1 - i);
+        size_t more;
+        ok = make_piece(&pieces[i], kept > 1, kept > 1 && room > FACES_MOST ? FACES_MOST : room,
+                        lights + *made, &more);
+        *made += ok ? more : 0;
+    }
+    for (size_t i = 0; kept < count && i < *made; i++)
+        lights[i].radiance = scaled(lights[i].radiance, factor);
+    free(pieces);
+    return ok;
+}
+
+static bool add_lights(scene_builder *builder, glowing *g, size_t instance, size_t most,
+                       const char *subject, base_error *error) {
+    lmp_light lights[LIGHTS_MOST];
     size_t made;
-    bool around;
-    if (!make_shapes(g, shapes, &made, &around))
+    if (!make_lights(g, most, lights, &made))
         return base_fail(error, subject, "does not fit into memory");
     for (size_t i = 0; i < made; i++) {
         scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
         if (!light)
             return base_fail(error, subject, "does not fit into memory");
-        const double part = around ? dimmed(g, &shapes[i]) : 1.0;
         light->hidden = 1;
         light->glow = (uint32_t)instance + 1;
         light->glows_both = 2 * g->both > g->count;
-        light->emitter = shapes[i];
-        light->emitter.radiance =
-            (lmp_rgb) { (float)(part * (double)emission[0]), (float)(part * (double)emission[1]),
-                        (float)(part * (double)emission[2]) };
+        light->emitter = lights[i];
         scene_light_error wrong;
         if (!scene_light_check(light, &wrong))
             return base_fail(error, subject, "instance %zu of a mesh makes a light: %s", instance,
@@ -129,6 +292,8 @@ static bool add_lights(scene_builder *builder, const glowing *g, size_t instance
     }
     return true;
 }
+
+/* --- all meshes ------------------------------------------------------------------------------- */
 
 /* Checks that no emission is too bright, whether a light stands for it or, because of a texture,
  * none does; the message is that of lights. */
@@ -143,23 +308,41 @@ static bool check_emission(const scene_builder *builder, const char *subject, ba
     return true;
 }
 
+static bool shines(const scene *world, const scene_material *materials, size_t instance) {
+    const scene_material *m = &materials[world->meshes[world->instances[instance].mesh].material];
+    return !(m->flags & (SCENE_UNLIT | SCENE_GLOWS_ALONE)) && brightest_of(m->emission) > 0.0f;
+}
+
+/* Returns the most lights of each mesh where so many shine. */
+static size_t most_of_each(const scene *world, const scene_material *materials) {
+    size_t count = 0;
+    for (size_t i = 0; i < world->instance_count; i++)
+        count += shines(world, materials, i);
+    const size_t each = LIGHTS_MOST_ALL / (count + 1);
+    return each < 1 ? 1 : each > LIGHTS_MOST ? LIGHTS_MOST : each;
+}
+
 bool emission_add_lights(scene_builder *builder, const char *subject, base_error *error) {
     const scene_material *materials = builder_items(builder, BLOB_MATERIALS);
     scene world;
-    bool ok = check_emission(builder, subject, error);
+    emission_maps maps;
+    if (!check_emission(builder, subject, error))
+        return false;
     builder_geometry(builder, &world);
+    if (!emission_maps_create(builder, &world, &maps))
+        return base_fail(error, subject, "does not fit into memory");
+    const size_t most = most_of_each(&world, materials);
+    bool ok = true;
     for (size_t i = 0; ok && i < world.instance_count; i++) {
         const scene_material *material = &materials[world.meshes[world.instances[i].mesh].material];
-        const float *emission = material->emission;
-        if (material->emission_map.texture >= 0 ||
-            material->flags & (SCENE_UNLIT | SCENE_GLOWS_ALONE) ||
-            !(emission[0] + emission[1] + emission[2] > 0.0f))
+        if (!shines(&world, materials, i) || !emission_maps_ready(&maps, material))
             continue;
         glowing g;
-        ok = (collect(builder, &world, i, &g) ||
+        ok = (collect(builder, &maps, material, i, &g) ||
               base_fail(error, subject, "does not fit into memory")) &&
-             add_lights(builder, &g, i, emission, subject, error);
+             add_lights(builder, &g, i, most, subject, error);
         free(g.triangles);
     }
+    emission_maps_free(&maps);
     return ok;
 }

@@ -2,6 +2,7 @@
 #include "app/scene/load/patches.h"
 
 #include "app/scene/light.h"
+#include "app/scene/load/pieces.h"
 #include "app/scene/outline.h"
 #include "app/scene/vector.h"
 
@@ -39,41 +40,6 @@ typedef struct patches {
 
 /* --- which triangles are one patch ------------------------------------------------------------ */
 
-typedef struct place {
-    lmp_vec3 at;
-    uint32_t corner;
-} place;
-
-static int compare_floats(float a, float b) {
-    return (a > b) - (a < b);
-}
-
-static int compare_positions(lmp_vec3 a, lmp_vec3 b) {
-    const int x = compare_floats(a.x, b.x), y = compare_floats(a.y, b.y);
-    return x ? x : y ? y : compare_floats(a.z, b.z);
-}
-
-static int compare_places(const void *a, const void *b) {
-    const place *p = a, *q = b;
-    return compare_positions(p->at, q->at);
-}
-
-static bool number_corners(patches *p) {
-    place *places = malloc(3 * p->count * sizeof *places);
-    if (!places)
-        return false;
-    for (uint32_t i = 0; i < 3 * p->count; i++)
-        places[i] = (place) { p->triangles[i / 3].corner[i % 3], i };
-    qsort(places, 3 * p->count, sizeof *places, compare_places);
-    uint32_t number = 0;
-    for (uint32_t i = 0; i < 3 * p->count; i++) {
-        number += i > 0 && compare_positions(places[i - 1].at, places[i].at) != 0;
-        p->corner[places[i].corner] = number;
-    }
-    free(places);
-    return true;
-}
-
 static int compare_sides(const void *a, const void *b) {
     const side *p = a, *q = b;
     if (p->from != q->from)
@@ -95,10 +61,8 @@ static void find_normals(patches *p) {
     }
 }
 
-static uint32_t patch_of(patches *p, uint32_t triangle) {
-    while (p->joined[triangle] != triangle)
-        triangle = p->joined[triangle] = p->joined[p->joined[triangle]];
-    return triangle;
+static uint32_t patch_of(const patches *p, uint32_t triangle) {
+    return pieces_root(p->joined, triangle);
 }
 
 /* Returns the side of a neighbor, which runs the other way, or NULL. */
@@ -129,7 +93,7 @@ typedef struct outline {
 } outline;
 
 /* Whether a side bounds its patch. */
-static bool bounds(patches *p, const side *s) {
+static bool bounds(const patches *p, const side *s) {
     const side *other = beyond(p, s);
     return !other || patch_of(p, other->triangle) != patch_of(p, s->triangle);
 }
@@ -173,7 +137,7 @@ static void straighten(outline *o) {
 }
 
 /* Follows the sides that bound a patch; returns false if they are no single loop. */
-static bool follow(patches *p, uint32_t patch, outline *o) {
+static bool follow(const patches *p, uint32_t patch, outline *o) {
     const side *bounding[OUTLINE_MAX];
     size_t count = 0;
     for (uint32_t i = 0; i < 3 * p->count; i++)
@@ -257,31 +221,55 @@ static bool make_light(const outline *o, bool both, lmp_light *light) {
     return made;
 }
 
-static bool add_outline(patches *p, const outline *o, bool both) {
-    return p->made < p->most && make_light(o, both, &p->lights[p->made]) && ++p->made;
+/* Returns the mean radiance of a patch, or of one triangle of it. */
+static lmp_rgb radiance_of(const patches *p, uint32_t patch, const patch_triangle *only) {
+    double sum[3] = { 0, 0, 0 }, all = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        const patch_triangle *t = &p->triangles[i];
+        if (only ? t != only : patch_of(p, i) != patch)
+            continue;
+        const double area = patch_triangle_area(t);
+        all += area;
+        for (int c = 0; c < 3; c++)
+            sum[c] += area * (double)t->radiance[c];
+    }
+    return (lmp_rgb) { (float)(sum[0] / all), (float)(sum[1] / all), (float)(sum[2] / all) };
+}
+
+/* Adds a light for an outline of a patch, all of it or one triangle. */
+static bool add_outline(patches *p, const outline *o, uint32_t patch, const patch_triangle *only) {
+    if (p->made == p->most || !make_light(o, p->triangles[patch].both, &p->lights[p->made]))
+        return false;
+    p->lights[p->made++].radiance = radiance_of(p, patch, only);
+    return true;
 }
 
 /* Adds a patch as one light or, if it is no shape that a light has, as its triangles; returns false
  * if there is no room or a triangle is no light. */
 static bool add_patch(patches *p, uint32_t patch) {
     outline whole, part = { .count = 3 };
-    if (follow(p, patch, &whole) && add_outline(p, &whole, p->triangles[patch].both))
+    if (follow(p, patch, &whole) && add_outline(p, &whole, patch, NULL))
         return true;
     for (uint32_t t = 0; t < p->count; t++) {
         if (patch_of(p, t) != patch)
             continue;
         memcpy(part.corner, p->triangles[t].corner, sizeof p->triangles[t].corner);
-        if (!add_outline(p, &part, p->triangles[t].both))
+        if (!add_outline(p, &part, patch, &p->triangles[t]))
             return false;
     }
     return true;
 }
 
-static size_t count_patches(patches *p) {
+static size_t count_patches(const patches *p) {
     size_t patch_count = 0;
     for (uint32_t t = 0; t < p->count; t++)
         patch_count += p->joined[t] == t;
     return patch_count;
+}
+
+double patch_triangle_area(const patch_triangle *triangle) {
+    const lmp_vec3 *c = triangle->corner;
+    return 0.5 * (double)vec_length(vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0])));
 }
 
 bool patches_make(const patch_triangle *triangles, size_t count, size_t most, lmp_light *lights,
@@ -294,7 +282,8 @@ bool patches_make(const patch_triangle *triangles, size_t count, size_t most, lm
                   .sides = malloc((3 * count + 1) * sizeof *p.sides),
                   .most = most,
                   .lights = lights };
-    const bool ok = p.corner && p.normal && p.joined && p.sides && number_corners(&p);
+    const bool ok = p.corner && p.normal && p.joined && p.sides &&
+                    pieces_number_corners(triangles, count, p.corner);
     if (ok) {
         list_sides(&p);
         find_normals(&p);

@@ -16,18 +16,13 @@ typedef struct spindle {
     double low, high, radius; /* along the axis from the middle, and off it */
 } spindle;
 
-static double triangle_area(const patch_triangle *t) {
-    const lmp_vec3 a = vec_sub(t->corner[1], t->corner[0]), b = vec_sub(t->corner[2], t->corner[0]);
-    return 0.5 * (double)vec_length(vec_cross(a, b));
-}
-
 static double coordinate(lmp_vec3 v, int k) {
     return (double)(k == 0 ? v.x : k == 1 ? v.y : v.z);
 }
 
 static void find_middle(const patch_triangle *triangles, size_t count, spindle *s) {
     for (size_t i = 0; i < count; i++) {
-        const double area = triangle_area(&triangles[i]);
+        const double area = patch_triangle_area(&triangles[i]);
         s->surface += area;
         for (int c = 0; c < 3; c++)
             for (int k = 0; k < 3; k++)
@@ -41,7 +36,7 @@ static void find_middle(const patch_triangle *triangles, size_t count, spindle *
 static void find_axis(const patch_triangle *triangles, size_t count, spindle *s) {
     double moments[3][3] = { { 0 } };
     for (size_t i = 0; i < count; i++) {
-        const double area = triangle_area(&triangles[i]);
+        const double area = patch_triangle_area(&triangles[i]);
         for (int c = 0; c < 3; c++)
             for (int j = 0; j < 3; j++)
                 for (int k = 0; k < 3; k++)
