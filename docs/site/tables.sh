@@ -12,7 +12,7 @@ check=no
 build=$(realpath "$1")
 shift
 cd "$(dirname "$0")/../.."
-[ $# -gt 0 ] || set -- accuracy fields ggx layers preintegration-notes shadows
+[ $# -gt 0 ] || set -- accuracy areas fields ggx layers preintegration-notes shadows
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -115,6 +115,7 @@ measure() {
         ;;
     accuracy.bands) test_prints unit/test_unit_accuracy 'errors_grow*' | named "$1" ;;
     accuracy.surface) test_prints unit/test_unit_accuracy 'the_last_digits*' | named "$1" ;;
+    areas.plates) test_prints unit/test_unit_area_plates 'plates_under*' | named "$1" ;;
     fields.error) test_prints unit/test_unit_field_error '*reach*' | named "$1" ;;
     preintegration-notes.lobes)
         paper preintegrated

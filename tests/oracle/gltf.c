@@ -87,6 +87,11 @@ static double gltf(const oracle_gltf *s, double theta, double phi) {
     return (f * d * v + (1 - f) * s->diffuse / PI) * nl;
 }
 
+double oracle_gltf_at(const oracle_gltf *s, const double from[3]) {
+    const double across = hypot(from[0], from[1]);
+    return from[2] > 0 ? gltf(s, atan2(across, from[2]), atan2(from[1], from[0])) : 0;
+}
+
 typedef struct gltf_cap {
     oracle_gltf surface;
     double azimuth;

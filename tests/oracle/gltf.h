@@ -10,6 +10,9 @@ typedef struct oracle_gltf {
     double f0, f90, diffuse;
 } oracle_gltf;
 
+/* Returns the BRDF times the cosine for light from a unit direction, 0 from below the horizon. */
+double oracle_gltf_at(const oracle_gltf *surface, const double from[3]);
+
 /* Returns the radiance reflected from a cap of radiance 1, given by its middle and half angle; the
  * horizon cuts it. */
 double oracle_gltf_cap(const oracle_gltf *surface, const double middle[3], double half_angle);
