@@ -365,6 +365,41 @@ static void every_piece_shines_where_it_is(void **state) {
     scene_free(&world);
 }
 
+/* A strip that is bent lengthwise, beside a ball: a rectangle as long and wide. Its ends are a
+ * tenth of its height higher than its middle, where the rectangle is. */
+static void a_bent_strip_is_a_rectangle(void **state) {
+    (void)state;
+    const double bend = 6, half = 0.25, width = 0.2, height = 2;
+    int vertices = 4;
+    snprintf(text, sizeof text, "%s", floor_obj);
+    for (int i = 0; i <= 12; i++)
+        for (int side = -1; side <= 1; side += 2) {
+            const double angle = half * (i - 6) / 6;
+            add_vertex(bend * sin(angle), height + bend * (1 - cos(angle)), side * width / 2);
+        }
+    for (int i = 0; i < 12; i++)
+        add_face(vertices + 2 * i + 1, vertices + 2 * i + 3, vertices + 2 * i + 4,
+                 vertices + 2 * i + 2);
+    vertices += 26;
+    add_ball(4, 3, 4, 0.05, &vertices);
+    scene world = load_glow();
+    assert_int_equal(world.light_count, 2);
+    const lmp_light *light = &world.lights[0].emitter;
+    assert_int_equal(light->kind, LMP_LIGHT_RECTANGLE);
+    const double x = bend * sin(half), area = 4 * x * width / 2;
+    CHECK_WITHIN(fabs(fabs((double)light->half[0].x) - x), 0.02 * x);
+    CHECK_WITHIN(fabs(fabs((double)light->half[1].z) - width / 2), 0.02 * width / 2);
+    CHECK_WITHIN(fabs((double)light->position.y - height), 1e-5);
+    CHECK_WITHIN(fabs((double)lmp_light_power_from_radiance(light, light->radiance.g) -
+                      M_PI * 10 * area * half / sin(half)),
+                 0.01 * M_PI * 10 * area);
+    const scene_camera down = camera_at(0, 1, 1);
+    double noise;
+    const double drawn = draw(&world, &down), truth = trace(&world, &down, &noise);
+    CHECK_WITHIN(fabs(drawn - truth), 0.1 * truth);
+    scene_free(&world);
+}
+
 /* Of a hundred balls the largest have the power of all. */
 static void the_strongest_pieces_have_all_power(void **state) {
     (void)state;
@@ -405,6 +440,7 @@ int main(void) {
         cmocka_unit_test(dark_parts_of_a_mesh_light_nothing),
         cmocka_unit_test(an_unreadable_map_lights_nothing),
         cmocka_unit_test(every_piece_shines_where_it_is),
+        cmocka_unit_test(a_bent_strip_is_a_rectangle),
         cmocka_unit_test(the_strongest_pieces_have_all_power),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

@@ -21,7 +21,7 @@ static const float darkest = 1.0f / 500;
 /* The part of a mesh's power that the strongest of its pieces have; the others add theirs to it. */
 static const double strongest_part = 0.99;
 
-/* How much of a piece's surface faces one way if a disk stands for it, rather than a sphere. */
+/* How much of a piece's surface faces one way if a rectangle stands for it, not a sphere. */
 static const double flat_part = 0.9;
 
 /* An emissive mesh in the world: its triangles that have areas and shine, turned to where. */
@@ -130,50 +130,84 @@ static bool is_body(const piece *p) {
     return true;
 }
 
-/* Makes a disk of a piece that is nearly flat and shines to one side: before all of it, so that
- * nothing of it is in its light, and of the area that faces its way. */
-static bool make_disk(const piece *p, lmp_light *disk) {
+/* What is found of a piece from its triangles, relative to its first corner: the vector of their
+ * areas, the sum of them, and their moment. */
+typedef struct spread_area {
+    lmp_vec3 facing, moment;
+    double whole;
+} spread_area;
+
+static spread_area measure(const piece *p) {
     const lmp_vec3 first = p->triangles[0].corner[0];
-    lmp_vec3 area = { 0, 0, 0 }, moment = { 0, 0, 0 };
-    double all = 0;
+    spread_area sum = { .whole = 0 };
     for (size_t i = 0; i < p->count; i++) {
         const patch_triangle *t = &p->triangles[i];
         const lmp_vec3 a = vec_sub(t->corner[0], first), b = vec_sub(t->corner[1], first),
                        c = vec_sub(t->corner[2], first);
-        const double one = patch_triangle_area(t);
-        if (t->both)
-            return false;
-        all += one;
-        area = vec_add(area, vec_scale(vec_cross(vec_sub(b, a), vec_sub(c, a)), 0.5f));
-        moment = vec_add(moment, vec_scale(vec_add(a, vec_add(b, c)), (float)one / 3));
+        const double area = patch_triangle_area(t);
+        sum.whole += area;
+        sum.facing = vec_add(sum.facing, vec_scale(vec_cross(vec_sub(b, a), vec_sub(c, a)), 0.5f));
+        sum.moment = vec_add(sum.moment, vec_scale(vec_add(a, vec_add(b, c)), (float)area / 3));
     }
-    const double facing = (double)vec_length(area);
-    if (!(facing > flat_part * all))
+    return sum;
+}
+
+/* Turns two perpendicular directions to where the triangles spread most and least around a point,
+ * and finds how much longer that is: the root of the ratio of their second moments. */
+static double turn_to_spread(const piece *p, lmp_vec3 middle, lmp_vec3 *x, lmp_vec3 *y) {
+    double xx = 0, xy = 0, yy = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        const patch_triangle *t = &p->triangles[i];
+        const double part = patch_triangle_area(t) / 12;
+        double sum[2] = { 0, 0 };
+        for (int k = 0; k < 4; k++) { /* the corners, and then their sum */
+            const lmp_vec3 from = vec_sub(t->corner[k % 3], middle);
+            const double u = k < 3 ? (double)vec_dot(from, *x) : sum[0],
+                         v = k < 3 ? (double)vec_dot(from, *y) : sum[1];
+            xx += part * u * u;
+            xy += part * u * v;
+            yy += part * v * v;
+            sum[0] += u;
+            sum[1] += v;
+        }
+    }
+    const double angle = 0.5 * atan2(2 * xy, xx - yy), mean = 0.5 * (xx + yy),
+                 half = hypot(0.5 * (xx - yy), xy);
+    const lmp_vec3 along =
+        vec_add(vec_scale(*x, (float)cos(angle)), vec_scale(*y, (float)sin(angle)));
+    *y = vec_sub(vec_scale(*y, (float)cos(angle)), vec_scale(*x, (float)sin(angle)));
+    *x = along;
+    return sqrt((mean + half) / fmax(mean - half, 1e-12 * mean));
+}
+
+/* Makes a rectangle of a piece that is nearly flat and shines to one side: of the area that faces
+ * its way, spread as that is, and before all of it, so that nothing of it is in its light. */
+static bool make_rectangle(const piece *p, lmp_light *rectangle) {
+    const spread_area found = measure(p);
+    const double facing = (double)vec_length(found.facing);
+    for (size_t i = 0; i < p->count; i++)
+        if (p->triangles[i].both)
+            return false;
+    if (!(facing > flat_part * found.whole))
         return false;
-    const lmp_vec3 normal = vec_normalize(area, vec(0, 1, 0)),
-                   middle = vec_add(first, vec_scale(moment, (float)(1 / all)));
+    const lmp_vec3 normal = vec_normalize(found.facing, vec(0, 1, 0)),
+                   middle = vec_add(p->triangles[0].corner[0],
+                                    vec_scale(found.moment, (float)(1 / found.whole)));
     float before = 0;
     for (size_t i = 0; i < 3 * p->count; i++)
         before = fmaxf(before, vec_dot(vec_sub(p->triangles[i / 3].corner[i % 3], middle), normal));
-    *disk = scene_light_disk(vec_add(middle, vec_scale(normal, before)), normal,
-                             (float)sqrt(facing / (double)PI));
-    spread(p, facing, disk);
+    lmp_vec3 x = vec_across(normal), y = vec_cross(normal, x);
+    const double longer = turn_to_spread(p, middle, &x, &y);
+    *rectangle = scene_light_rectangle(vec_add(middle, vec_scale(normal, before)),
+                                       vec_scale(x, (float)(0.5 * sqrt(facing * longer))),
+                                       vec_scale(y, (float)(0.5 * sqrt(facing / longer))));
+    spread(p, facing, rectangle);
     return true;
 }
 
-/* Whether a disk is half as wide as its piece at least, so that it lights what is near alike. */
-static bool is_compact(const piece *p, const lmp_light *disk) {
-    for (size_t i = 0; i < 3 * p->count; i++)
-        if (vec_length(vec_sub(p->triangles[i / 3].corner[i % 3], disk->position)) >
-            2 * disk->radius)
-            return false;
-    return true;
-}
-
-/* Makes the lights of a piece, at most `most`: a tube, its faces, a disk, or a sphere. One of
- * several is a disk rather than faces. Returns false if memory ran out. */
+/* Makes the lights of a piece, at most `most`: a tube, its faces, a rectangle, or a sphere. One of
+ * several is a rectangle rather than faces. Returns false if memory ran out. */
 static bool make_piece(const piece *p, bool several, size_t most, lmp_light *lights, size_t *made) {
-    const bool few = p->count <= TRIANGLES_MOST;
     *made = 1;
     if (is_body(p) && round_make_tube(p->triangles, p->count, lights)) {
         const double r = (double)lights->radius, half = (double)vec_length(lights->half[0]);
@@ -181,18 +215,17 @@ static bool make_piece(const piece *p, bool several, size_t most, lmp_light *lig
         return true;
     }
     *made = 0;
-    if (few && !patches_make(p->triangles, p->count, several ? 1 : most, lights, made))
-        return false;
-    if (*made == 0 && several && make_disk(p, lights) && is_compact(p, lights)) {
-        *made = 1;
-        return true;
+    if (p->count <= TRIANGLES_MOST) {
+        if (!patches_make(p->triangles, p->count, several ? 1 : most, lights, made))
+            return false;
+        if (*made == 0 && several && !make_rectangle(p, lights) &&
+            !patches_make(p->triangles, p->count, most, lights, made))
+            return false;
     }
-    if (*made == 0 && several && few && !patches_make(p->triangles, p->count, most, lights, made))
-        return false;
     if (*made > 0)
         return true;
     *made = 1;
-    if (make_disk(p, lights))
+    if (make_rectangle(p, lights))
         return true;
     *lights = sphere_around(p);
     spread(p, 4 * (double)PI * (double)lights->radius * (double)lights->radius, lights);

@@ -8,8 +8,8 @@
 /* Appends hidden lights for every emissive mesh, with the same power: area times pi times radiance,
  * which is the mean over a triangle where there is an emission map, and twice that where it is
  * double-sided and open. Each piece of a mesh, whose triangles hang together, is its flat faces, if
- * these are few, or a tube if it is long and round; else a disk before it, or the sphere around it.
- * Of many pieces the strongest have the power of all. */
+ * these are few, or a tube if it is long and round; else a rectangle before it, or the sphere
+ * around it. Of many pieces the strongest have the power of all. */
 bool emission_add_lights(scene_builder *builder, const char *subject, base_error *error);
 
 #endif
