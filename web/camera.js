@@ -25,14 +25,14 @@ export function makeCamera({ eye, target, up, fov }, minimum, maximum) {
     }
 
     return {
-        frame(width, height, lightCount) {
+        frame(width, height, lightCount, areaCount) {
             const { forward, right, down, half } = axes(width / height), wide = half * width / height;
             const rows = [right.map((x) => x / wide ** 2), down.map((x) => x / half ** 2), forward.map((x) => -x), forward];
             const constants = [0, 0, 2 * near, 0], block = new Float32Array(48);
             for (let row = 0; row < 4; row++)
                 [...rows[row], constants[row] - dot(rows[row], eye)].forEach((x, column) => { block[4 * column + row] = x; });
             block.set([...eye, near, ...forward, 0, ...right, 0, ...down, 0], 16);
-            block.set([width, height, lightCount, 0, 0, 0, 0, 1], 36);
+            block.set([width, height, lightCount, areaCount, 0, 0, 0, 1], 36);
             return block;
         },
         // Returns the unit ray through a point of the image, -1 … 1 to the right and down.

@@ -9,7 +9,6 @@
 #include "app/scene/builtin/builtin.h"
 #include "app/scene/flatten.h"
 #include "app/scene/gltf/gltf.h"
-#include "app/scene/load/emission.h"
 #include "app/scene/load/origin.h"
 #include "app/scene/texture.h"
 
@@ -20,15 +19,19 @@
 
 #define EXPORT EMSCRIPTEN_KEEPALIVE
 
+enum { AREAS_MAX = 64 };
+
 static struct {
     base_error error;
     scene world;
     animation *path;
-    size_t lanterns; /* the first lights, which stay in paper lanterns of the scene */
+    size_t fixtures; /* the first lights, which belong to the scene and stay where they are */
     /* SCENE_LIGHTS_MAX of each, allocated with the first scene: as they move, as the shaders and as
      * the library take them. A module's static memory is small. */
     scene_light *moved;
-    shared_light *lights;
+    shared_light *lights; /* spheres, and then areas, of which shaders show the radiance */
+    size_t sphere_count, area_count;
+    float areas[AREAS_MAX][4 * LMP_AREA_TEXELS];
     lmp_light *emitters;
     shared_material *materials;
     shared_material_constants *constants;
@@ -112,7 +115,8 @@ EXPORT const char *demo_open_builtin(const char *name) {
     scene_builder builder = { 0 };
     const bool ok = builtin_make(name, &builder, &demo.error) && take(&builder, "builtin");
     builder_free(&builder);
-    demo.lanterns = ok && strncmp(name, "atrium", 6) == 0 ? demo.world.light_count : 0;
+    const bool lit = strncmp(name, "atrium", 6) == 0 || strncmp(name, "room", 4) == 0;
+    demo.fixtures = ok && lit ? demo.world.light_count : 0;
     return outcome(ok);
 }
 
@@ -126,7 +130,7 @@ EXPORT const char *demo_open_file(const void *data, size_t size) {
         ok = base_fail(&demo.error, name, "has no triangles");
     ok = ok && take(&builder, name);
     builder_free(&builder);
-    demo.lanterns = ok ? 0 : demo.lanterns;
+    demo.fixtures = ok ? 0 : demo.fixtures;
     return outcome(ok);
 }
 
@@ -208,13 +212,13 @@ EXPORT const float *demo_camera(float aspect) {
 
 /* --- lights ----------------------------------------------------------------------------------- */
 
-/* Scatters lights, `count` in all: the lanterns, if the scene has any, and others. */
+/* Scatters lights, `count` in all: the scene's own, if it has any, and others. */
 EXPORT const char *demo_scatter_lights(int count, uint32_t seed) {
-    const int others = count - (int)demo.lanterns;
-    if (demo.lanterns == 0)
+    const int others = count - (int)demo.fixtures;
+    if (demo.fixtures == 0)
         scene_clear_lights(&demo.world);
     else
-        demo.world.light_count = demo.lanterns;
+        demo.world.light_count = demo.fixtures;
     return outcome(others <= 0 || scene_add_random_lights(&demo.world, others, seed, &demo.error));
 }
 
@@ -222,28 +226,59 @@ EXPORT const shared_light *demo_lights(void) {
     return demo.lights;
 }
 
-/* Moves the lights to where they are after so many seconds; returns how many there are. Of a file's
- * lights only spheres shine here. */
-EXPORT size_t demo_move_lights(double seconds) {
-    size_t count = 0;
-    animation_move_all(demo.path, &demo.world, seconds, demo.moved);
-    memcpy(demo.moved, demo.world.lights, demo.lanterns * sizeof *demo.moved);
-    for (size_t i = 0; i < demo.world.light_count; i++) {
-        const lmp_light *e = &demo.moved[i].emitter;
-        if (e->kind != LMP_LIGHT_SPHERE)
-            continue;
-        const bool drawn = scene_light_is_drawn(&demo.moved[i]);
-        demo.lights[count++] =
-            (shared_light) { { e->position.x, e->position.y, e->position.z, e->radius },
-                             { e->radiance.r, e->radiance.g, e->radiance.b,
-                               (float)(drawn ? SHARED_LIGHT_DRAWN : SHARED_LIGHT_HIDDEN) },
-                             { 0 } };
-    }
-    return count;
+static void add_sphere(const scene_light *light) {
+    const lmp_light *e = &light->emitter;
+    demo.lights[demo.sphere_count++] = (shared_light) {
+        { e->position.x, e->position.y, e->position.z, e->radius },
+        { e->radiance.r, e->radiance.g, e->radiance.b,
+          (float)(scene_light_is_drawn(light) ? SHARED_LIGHT_DRAWN : SHARED_LIGHT_HIDDEN) },
+        { 0 }
+    };
 }
 
+/* Adds an area, once all spheres are there. */
+static void add_area(const scene_light *light) {
+    const lmp_rgb radiance = light->emitter.radiance;
+    if (demo.area_count == AREAS_MAX)
+        return;
+    const size_t number = demo.sphere_count + demo.area_count;
+    float *const texels = demo.areas[demo.area_count++];
+    lmp_light_copy_area_texels(&light->emitter, texels);
+    texels[4 * SHARED_AREA_NUMBER + 3] = light->hidden ? -1 : (float)number;
+    demo.lights[number] =
+        (shared_light) { .radiance = { radiance.r, radiance.g, radiance.b, SHARED_LIGHT_HIDDEN } };
+}
+
+/* Moves the lights to where they are after so many seconds; returns how many spheres there are.
+ * Lights of other kinds than spheres and areas do not shine here. */
+EXPORT size_t demo_move_lights(double seconds) {
+    const size_t count = demo.world.light_count;
+    animation_move_all(demo.path, &demo.world, seconds, demo.moved);
+    memcpy(demo.moved, demo.world.lights, demo.fixtures * sizeof *demo.moved);
+    demo.sphere_count = demo.area_count = 0;
+    for (size_t i = 0; i < count; i++)
+        if (demo.moved[i].emitter.kind == LMP_LIGHT_SPHERE)
+            add_sphere(&demo.moved[i]);
+    for (size_t i = 0; i < count; i++)
+        if (scene_light_is_area(&demo.moved[i].emitter))
+            add_area(&demo.moved[i]);
+    return demo.sphere_count;
+}
+
+EXPORT size_t demo_area_count(void) {
+    return demo.area_count;
+}
+
+EXPORT const float *demo_areas(void) {
+    return demo.areas[0];
+}
+
+/* Moves sphere i. */
 EXPORT void demo_drag_light(size_t i, float x, float y, float z) {
-    lmp_vec3 *position = &demo.world.lights[i].emitter.position;
+    scene_light *light = demo.world.lights;
+    for (size_t before = 0; light->emitter.kind != LMP_LIGHT_SPHERE || before++ < i; light++) {
+    }
+    lmp_vec3 *position = &light->emitter.position;
     *position = (lmp_vec3) { position->x + x, position->y + y, position->z + z };
 }
 

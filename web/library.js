@@ -2,7 +2,7 @@
 // Lampion's C library and scenes as WebAssembly (demo.c).
 import bytes from 'demo.wasm';
 
-const VERTEX = 16, LIGHT = 12, CONSTANTS = 8; // in floats
+const VERTEX = 16, LIGHT = 12, CONSTANTS = 8, AREA = 44; // in floats
 
 // A page has no files: any call for files, a clock or more memory returns -1.
 const nothing = new Proxy({}, { get: () => () => -1 });
@@ -59,10 +59,14 @@ export async function loadLibrary() {
             return { eye: [...all.subarray(0, 3)], target: [...all.subarray(3, 6)], up: [...all.subarray(6, 9)], fov: all[9] };
         },
         scatterLights: (count, seed) => check(c.demo_scatter_lights(count, seed)),
-        // Returns the lights as the shaders read them: center, radius, radiance, kind, cone.
+        // Returns copies of the lights as the shaders read them: center, radius, radiance, kind, cone, of spheres
+        // and then of areas; those of spheres alone; and the texels of areas.
         lights(seconds) {
-            const count = c.demo_move_lights(seconds);
-            return floats(c.demo_lights(), LIGHT * count);
+            const count = c.demo_move_lights(seconds), areaCount = c.demo_area_count();
+            const all = floats(c.demo_lights(), LIGHT * (count + areaCount)).slice();
+            return {
+                all, spheres: all.subarray(0, LIGHT * count), areaCount, areas: floats(c.demo_areas(), AREA * areaCount).slice(),
+            };
         },
         dragLight: (i, [x, y, z]) => c.demo_drag_light(i, x, y, z),
         ggxTexels: () => floats(c.demo_ggx_texels(), 4 * 5152),

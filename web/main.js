@@ -7,8 +7,10 @@ import { makeRenderer, methods } from './renderer.js';
 
 const element = (id) => document.getElementById(id);
 const canvas = element('view'), asked = new URLSearchParams(location.hash.slice(1));
+const fewest = (scene) => (scene === 'room' ? 4 : 30); // the lights that belong to a scene
+const usual = (scene) => (scene === 'room' ? 4 : 40);
 const state = {
-    scene: asked.get('scene') ?? 'atrium', lights: Number(asked.get('lights') ?? 40), bands: Number(asked.get('bands') ?? 8),
+    scene: asked.get('scene') ?? 'atrium', lights: Number(asked.get('lights') ?? usual(asked.get('scene'))), bands: Number(asked.get('bands') ?? 8),
     method: asked.get('method') ?? 'zonal', window: asked.get('window') ?? 'hanning', split: asked.has('split'),
     moving: !asked.has('time'), scale: asked.get('scale') ?? 'auto', divider: Number(asked.get('split') || 0.5),
 };
@@ -34,7 +36,7 @@ function openBuiltin() {
     frameScene();
 }
 
-// The atrium's own lanterns are the first 30, and do not move.
+// The atrium's own lanterns are the first 30, and do not move, nor do the room's four lights.
 function scatterLights() {
     library.scatterLights(Math.min(state.lights, renderer.lightsMost), 1);
     exposure = Number(asked.get('exposure') ?? 0);
@@ -121,7 +123,7 @@ const rayAt = ({ clientX, clientY }) =>
 canvas.addEventListener('pointerdown', (event) => {
     canvas.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, event);
-    const ray = rayAt(event), light = pointers.size === 1 ? pick(lights, ray, event.pointerType === 'touch' ? 2 : 1.3) : -1;
+    const ray = rayAt(event), light = pointers.size === 1 ? pick(lights.spheres, ray, event.pointerType === 'touch' ? 2 : 1.3) : -1;
     held = light < 0 ? null : { light, ray };
 });
 canvas.addEventListener('pointermove', (event) => {
@@ -132,7 +134,7 @@ canvas.addEventListener('pointermove', (event) => {
     due = 2;
     if (held) {
         const ray = rayAt(event), { light } = held;
-        library.dragLight(light, dragged(lights.subarray(12 * light, 12 * light + 3), held.ray, ray));
+        library.dragLight(light, dragged(lights.spheres.subarray(12 * light, 12 * light + 3), held.ray, ray));
         lights = library.lights(seconds);
         held.ray = ray;
     } else if (pointers.size === 1) {
@@ -168,6 +170,7 @@ addEventListener('drop', (event) => {
 
 function showState() {
     due = 2;
+    element('lights').min = fewest(state.scene);
     for (const id of ['scene', 'lights', 'bands', 'method', 'window', 'scale'])
         element(id).value = state[id];
     for (const id of ['split', 'moving'])
@@ -196,8 +199,10 @@ function change(id, value) {
     state[id] = value;
     if (id === 'method')
         state.bands = Math.min(state.bands, methods[value].bands);
-    if (id === 'scene')
+    if (id === 'scene') {
+        state.lights = usual(value);
         openBuiltin();
+    }
     if (id === 'lights')
         scatterLights();
     showState();
@@ -255,9 +260,9 @@ begin().catch((error) => tell(error.message, true));
 
 // for the console, and for tests
 globalThis.lampion = {
-    draw, state, lightAt: (i) => [...lights.subarray(12 * i, 12 * i + 4)],
-    project: (i) => camera.project([...lights.subarray(12 * i, 12 * i + 3)], innerWidth, innerHeight),
-    pick: ([clientX, clientY]) => pick(lights, rayAt({ clientX, clientY }), 1),
+    draw, state, lightAt: (i) => [...lights.spheres.subarray(12 * i, 12 * i + 4)],
+    project: (i) => camera.project([...lights.spheres.subarray(12 * i, 12 * i + 3)], innerWidth, innerHeight),
+    pick: ([clientX, clientY]) => pick(lights.spheres, rayAt({ clientX, clientY }), 1),
     get exposure() { return exposure; },
     get frameTime() { return mean; },
     get ready() { return mean > 0 && (state.moving || due <= 0); },

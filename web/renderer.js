@@ -4,6 +4,7 @@ import { bindTexture, makeMesh, makeTable } from './mesh.js';
 import { makeProgram, stages } from './shaders.js';
 import { makeTargets } from './targets.js';
 
+const AREA_TEXELS = 11, AREAS_MOST = 64; // of shared.h and demo.c
 const UNITS = { base_color_map: 0, metallic_roughness_map: 1, normal_map: 2, emission_map: 3, occlusion_map: 4, specular_map: 5 };
 
 export const methods = {
@@ -16,13 +17,15 @@ export const windows = ['none', 'hanning', 'lanczos']; // in the order of lmp_wi
 // Makes the programs that shade, each when it is first used.
 function makeShades(gl, lightsMost) {
     const programs = new Map();
-    return ({ method, bands, window }, radiance) => {
-        const straight = method === 'preintegrated' ? 1 : bands, key = `${method} ${straight} ${window} ${radiance}`;
+    return ({ method, bands, window }, areas, radiance) => {
+        const straight = method !== 'preintegrated' ? bands : areas ? Math.min(bands, 10) : 1;
+        const key = `${method} ${straight} ${window} ${areas} ${radiance}`;
         if (!programs.has(key))
             programs.set(key, makeProgram(gl, stages.shade, `#define LMP_BANDS ${straight}
 #define LMP_WINDOW ${windows.indexOf(window)}
 #define SHADE lmp_shade_${method}
 ${methods[method].define}
+${areas ? '#define SHADE_AREAS' : ''}
 ${radiance ? '#define RADIANCE' : ''}`, lightsMost));
         return programs.get(key);
     };
@@ -69,6 +72,8 @@ export function makeRenderer(canvas, library) {
     const ggx = makeTable(gl, gl.RGBA32F, 32, 161, library.ggxTexels()), empty = gl.createVertexArray();
     const setFrame = makeBlock(gl, 0, 4 * 48), setLights = makeBlock(gl, 1, 48 * lightsMost);
     const light = makeProgram(gl, stages.light, '', lightsMost);
+    const areaLight = makeProgram(gl, stages.area, '', lightsMost);
+    const areas = makeTable(gl, gl.RGBA32F, AREA_TEXELS, AREAS_MOST);
     const surfaces = ['', '#define SURFACE_MASKED'].map((defines) => makeProgram(gl, stages.surface, defines, lightsMost));
     for (const { program, uniforms } of surfaces) {
         gl.useProgram(program);
@@ -77,11 +82,19 @@ export function makeRenderer(canvas, library) {
     }
     let mesh = null;
 
+    function uploadAreas(texels, count) {
+        bindTexture(gl, 0, areas);
+        gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, AREA_TEXELS, count, gl.RGBA, gl.FLOAT, texels);
+    }
+
     function drawGeometry(camera, lights, lampsShown = true) {
-        const lightCount = Math.min(lights.length / 12, lightsMost);
+        const lightCount = Math.min(lights.spheres.length / 12, lightsMost);
+        const areaCount = lightCount + lights.areaCount <= lightsMost ? lights.areaCount : 0;
         targets.resize(canvas.width, canvas.height);
-        setFrame(camera.frame(canvas.width, canvas.height, lightCount));
-        setLights(lights.subarray(0, 12 * lightCount));
+        setFrame(camera.frame(canvas.width, canvas.height, lightCount, areaCount));
+        setLights(lights.all.subarray(0, 12 * (lightCount + areaCount)));
+        if (areaCount)
+            uploadAreas(lights.areas, areaCount);
         for (let unit = 0; unit < 16; unit++)
             bindTexture(gl, unit, null);
         targets.begin();
@@ -94,14 +107,21 @@ export function makeRenderer(canvas, library) {
         gl.enable(gl.CULL_FACE);
         gl.cullFace(gl.FRONT);
         gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 14, lampsShown ? lightCount : 0);
+        if (areaCount && lampsShown) {
+            gl.useProgram(areaLight.program);
+            bindTexture(gl, 0, areas);
+            gl.uniform1i(areaLight.uniforms.areas_texels ?? null, 0);
+            gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 14, areaCount);
+        }
         gl.disable(gl.CULL_FACE);
         gl.disable(gl.DEPTH_TEST);
+        return areaCount > 0;
     }
 
     // Shades a part of what is bound, x from … to of its width.
-    function shade(settings, { width, height, exposure = 1, radiance = false, from = 0, to = 1 }) {
-        const { program, uniforms } = shades(settings, radiance), lobe = lobes(settings);
-        const textures = { ggx_texels: ggx, material_constants: mesh.materialConstants, ...lobe.textures, ...targets.inputs() };
+    function shade(settings, lit, { width, height, exposure = 1, radiance = false, from = 0, to = 1 }) {
+        const { program, uniforms } = shades(settings, lit, radiance), lobe = lobes(settings);
+        const textures = { ggx_texels: ggx, areas_texels: areas, material_constants: mesh.materialConstants, ...lobe.textures, ...targets.inputs() };
         gl.useProgram(program);
         Object.entries(textures).forEach(([name, texture], unit) => {
             bindTexture(gl, unit, texture);
@@ -127,20 +147,20 @@ export function makeRenderer(canvas, library) {
         // `other` is shown from `split` on, a fraction of the width.
         draw(camera, lights, settings, other, split, exposure) {
             const { width, height } = canvas;
-            drawGeometry(camera, lights);
+            const lit = drawGeometry(camera, lights);
             gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-            shade(settings, { width, height, exposure, to: split });
+            shade(settings, lit, { width, height, exposure, to: split });
             if (split < 1)
-                shade(other, { width, height, exposure, from: split });
+                shade(other, lit, { width, height, exposure, from: split });
         },
         // Returns the exposure that the program would choose for this image.
         exposure(camera, lights, settings) {
             const width = 160, height = 90, rgba = new Float32Array(4 * width * height);
             const target = makeTable(gl, gl.RGBA32F, width, height), framebuffer = gl.createFramebuffer();
-            drawGeometry(camera, lights, false);
+            const lit = drawGeometry(camera, lights, false);
             gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
             gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target, 0);
-            shade(settings, { width, height, radiance: true });
+            shade(settings, lit, { width, height, radiance: true });
             gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, rgba);
             gl.deleteFramebuffer(framebuffer);
             gl.deleteTexture(target);

@@ -11,9 +11,16 @@
 uniform sampler2D ggx_texels;
 #define LMP_GGX_TEXEL(i) texelFetch(ggx_texels, ivec2((i) % 32, (i) / 32), 0)
 #include "ggx.glsl"
+#ifdef SHADE_AREAS
+#include "texels.glsl"
+#include "areas.glsl"
+#endif
 #include "lampion.glsl"
 #ifdef SHADE_COEFFICIENTS
 #include "coefficients.glsl"
+#endif
+#ifdef SHADE_AREAS
+#include "area.glsl"
 #endif
 #ifdef SHADE_PREINTEGRATED
 uniform sampler2D lobe_pairs, lobe_cells, lobe_remap;

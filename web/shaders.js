@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The program's own shaders in GLSL ES 3.00, which has no #include and no locations for varyings
 // between stages.
+import area from '../shaders/lampion/area.glsl';
+import areaFragment from '../shaders/program/area.frag';
+import areaHit from '../shaders/program/area_hit.glsl';
+import areaVertex from '../shaders/program/area.vert';
+import areas from '../shaders/program/areas.glsl';
 import camera from '../shaders/program/camera.glsl';
 import coat from '../shaders/lampion/coat.glsl';
 import coefficients from '../shaders/lampion/coefficients.glsl';
@@ -16,16 +21,19 @@ import screen from '../shaders/program/screen.vert';
 import shared from '../shaders/program/shared.h';
 import surfaceFragment from '../shaders/program/surface.frag';
 import surfaceVertex from '../shaders/program/surface.vert';
+import texels from '../shaders/program/texels.glsl';
 import tone from '../shaders/program/tone.h';
 import shade from './shade.frag';
 
 const files = {
-    'camera.glsl': camera, 'coat.glsl': coat, 'coefficients.glsl': coefficients, 'gbuffer.glsl': gbuffer, 'ggx.glsl': ggx,
+    'area.glsl': area, 'area_hit.glsl': areaHit, 'areas.glsl': areas, 'texels.glsl': texels, 'light.frag': lightFragment,
+    'light.vert': lightVertex, 'camera.glsl': camera, 'coat.glsl': coat, 'coefficients.glsl': coefficients, 'gbuffer.glsl': gbuffer, 'ggx.glsl': ggx,
     'lampion.glsl': lampion, 'light.glsl': light, 'preintegrated_lobe.glsl': lobe,
     'preintegrated_lookup.h': lookup, 'shared.h': shared, 'tone.h': tone,
 };
 export const stages = {
-    surface: [surfaceVertex, surfaceFragment], light: [lightVertex, lightFragment], shade: [screen, shade],
+    surface: [surfaceVertex, surfaceFragment], light: [lightVertex, lightFragment],
+    area: [areaVertex, areaFragment], shade: [screen, shade],
 };
 
 function expand(text) {

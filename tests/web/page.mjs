@@ -22,7 +22,7 @@ const pixels = `(lampion.draw(), createImageBitmap(document.getElementById("view
 // Returns the fraction of the page's pixels that differ by more than two levels from what PROGRAM renders.
 async function rendered(...options) {
     const exposure = await evaluate('lampion.exposure');
-    execFileSync(program, ['render', 'builtin:atrium', '--no-shadows', '--samples', '1', '--exposure', `${exposure}`,
+    execFileSync(program, ['render', `builtin:${await evaluate('lampion.state.scene')}`, '--no-shadows', '--samples', '1', '--exposure', `${exposure}`,
         '--animate', 'orbit', '--frames', '0-0', ...options, '-o', `${work}/wanted.png`]);
     const image = readFileSync(`${work}/wanted_0000.png`).toString('base64');
     return evaluate(`(async () => {
@@ -79,6 +79,18 @@ async function choose() {
     await open('time=0&scale=1&closed&lights=30&split=0.5');
     const split = await rendered('--size', '320x180', '--bands', '8');
     assert.ok(split > 2 * edges && split < 0.5, `half of the image has 100 bands (${split} differs)`);
+}
+
+// The room's lights are areas, but for a globe.
+async function room() {
+    await open('scene=room&time=0&scale=1&closed');
+    const same = await rendered('--size', '320x180', '--bands', '8');
+    assert.ok(same <= edges, `the room: ${same}`);
+    assert.ok(await rendered('--size', '320x180', '--bands', '8', '--hide-lights') > edges, 'areas are seen');
+    await screenshot('room');
+    await open('scene=room&time=0&scale=1&closed&bands=8&method=preintegrated');
+    const beside = await rendered('--size', '320x180', '--bands', '8', '--method', 'preintegrated');
+    assert.ok(beside <= edges, `areas beside preintegrated lobes: ${beside}`);
 }
 
 async function drag() {
@@ -178,7 +190,7 @@ async function phone() {
 
 let status = 0;
 try {
-    for (const step of [draw, choose, rest, small, drag, resize, lose, drop, phone]) {
+    for (const step of [draw, choose, room, rest, small, drag, resize, lose, drop, phone]) {
         console.time(step.name);
         await step();
         console.timeEnd(step.name);
