@@ -109,6 +109,18 @@ LMP_API void lmp_light_project_zonal(int bands, const lmp_light *light, lmp_vec3
 LMP_API void lmp_light_project(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                                float *sh);
 
+/* Projects a light of unit strength as lmp_light_project does, and differentiates it with respect
+ * to `point`, which may be anywhere but on the outline of an area, where the derivative is
+ * infinite.
+ *
+ * light may be of any kind; its color is not read. sh receives LMP_SH_COUNT(bands) values as in
+ * lmp_light_project_zonal, gradient three planes of them, apart from sh: d/dx, d/dy, d/dz. Spheres
+ * are differentiated as by lmp_sphere_project_gradient; lights that look alike from everywhere have
+ * derivatives of 0, as has a point light at its own position. Inside a tube the derivative is that
+ * of the sphere around the nearest point of its axis */
+LMP_API void lmp_light_project_gradient(int bands, const lmp_light *light, lmp_vec3 point,
+                                        float *sh, float *gradient);
+
 /* Projects the sum of `count` lights as lmp_light_project does, into channels anywhere in memory,
  * LMP_SH_COUNT(bands) values each: those of a probe with padded planes, say, or a single channel. A
  * channel that is NULL is not written. */

@@ -77,116 +77,9 @@ void lmpi_loop_add_arc(lmpi_loop *loop, lmpi_vector center, lmpi_vector middle, 
     loop->arc[loop->count++] = (lmpi_arc) { center, middle, side, end, .straight = false };
 }
 
-/* --- nodes ------------------------------------------------------------------------------------ */
-
-enum { PAIRS = 8, NODES = 2 * PAIRS };
-
-/* Gauss-Legendre nodes of a part of an arc, by pairs: the integral of g ds is the sum of g. */
-typedef struct nodes {
-    int pairs;
-    pair w[3][PAIRS], g[3][PAIRS];
-} nodes;
-
-/* The positive nodes of 4, 8 and 16, and their weights. */
-typedef struct gauss_rule {
-    int half;
-    double node[PAIRS], weight[PAIRS];
-} gauss_rule;
-static const gauss_rule rules[] = {
-    { 2,
-      { 0.33998104358485626480, 0.86113631159405257522 },
-      { 0.65214515486254614263, 0.34785484513745385737 } },
-    { 4,
-      { 0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959,
-        0.96028985649753623168 },
-      { 0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054,
-        0.10122853629037625915 } },
-    { 8,
-      { 0.095012509837637440185, 0.28160355077925891323, 0.45801677765722738634,
-        0.61787624440264374845, 0.7554044083550030339, 0.86563120238783174388,
-        0.94457502307323257608, 0.9894009349916499326 },
-      { 0.18945061045506849629, 0.18260341504492358887, 0.16915651939500253819,
-        0.14959598881657673208, 0.12462897125553387205, 0.09515851168249278481,
-        0.062253523938647892863, 0.027152459411754094852 } }
-};
-
-/* Returns the rule whose error on a part of an arc is below 1e-11, NULL if there is none: by how
- * near the next singularity is to half of the part, and by the waves of the highest band on it. */
-static const gauss_rule *rule_for(double half, double waves) {
-    static const double longest[] = { 1. / 20, 0.2, 0.5 }, most[] = { 0.25, 2.5, 10 };
-    for (int i = 0; i < 3; i++)
-        if (half <= longest[i] && waves <= most[i])
-            return &rules[i];
-    return NULL;
-}
-
-static lmpi_vector arc_at(const lmpi_arc *arc, double t) {
-    const double per = 1 / (1 + t * t);
-    return lmpi_vector_add(arc->center,
-                           lmpi_vector_add(lmpi_vector_scale(arc->middle, (1 - t * t) * per),
-                                           lmpi_vector_scale(arc->side, 2 * t * per)));
-}
-
-/* Returns the rule for a part of an arc. The next singularity is one of t or, but for a straight
- * edge, one where the square of the distance is 0. */
-static const gauss_rule *rule_between(const lmpi_arc *arc, double low, double high, int bands) {
-    const double half = (high - low) / 2;
-    if (arc->straight)
-        return rule_for(half, 2 * half * bands);
-    const double ends =
-        fmin(lmpi_vector_length(arc_at(arc, low)), lmpi_vector_length(arc_at(arc, high)));
-    const double near = fmin(ends, lmpi_vector_length(arc_at(arc, low + half)));
-    const double seen = 2 * half * lmpi_vector_length(arc->middle) / near;
-    return rule_for(fmax(half, seen), seen * bands);
-}
-
-static void take_nodes(const lmpi_arc *arc, const gauss_rule *rule, double low, double high,
-                       nodes *to) {
-    const double half = (high - low) / 2, center = low + half;
-    to->pairs = rule->half;
-    for (int i = 0; i < rule->half; i++)
-        for (int k = 0; k < 2; k++) {
-            const double t = center + (k ? half : -half) * rule->node[i], per = 1 / (1 + t * t);
-            const double c = (1 - t * t) * per, s = 2 * t * per;
-            const lmpi_vector p = arc_at(arc, t);
-            const lmpi_vector along =
-                lmpi_vector_sub(lmpi_vector_scale(arc->side, c), lmpi_vector_scale(arc->middle, s));
-            const double square = lmpi_vector_dot(p, p), length = sqrt(square);
-            const lmpi_vector w = lmpi_vector_scale(p, 1 / length);
-            const lmpi_vector g = lmpi_vector_scale(lmpi_vector_cross(p, along),
-                                                    2 * per * half * rule->weight[i] / square);
-            const double values[2][3] = { { w.x, w.y, w.z }, { g.x, g.y, g.z } };
-            for (int a = 0; a < 3; a++) {
-                to->w[a][i][k] = values[0][a];
-                to->g[a][i][k] = values[1][a];
-            }
-        }
-}
-
 /* Returns v·w or v·g of a pair of nodes. */
-static pair part_along(lmpi_vector v, pair const of[3][PAIRS], int k) {
+static pair part_along(lmpi_vector v, pair const of[3][LMPI_ARC_PAIRS], int k) {
     return v.x * of[0][k] + v.y * of[1][k] + v.z * of[2][k];
-}
-
-typedef void nodes_user(const nodes *nodes, void *user);
-
-/* Hands over the nodes of low <= t <= high, in parts that a rule integrates for `bands` bands. */
-static LMPI_NOINLINE void visit(const lmpi_arc *arc, double low, double high, int bands,
-                                nodes_user *use, void *user) {
-    const double least = 1e-12;
-    nodes some;
-    double step = high - low;
-    while (low < high) {
-        const gauss_rule *rule;
-        while (!(rule = rule_between(arc, low, low + step, bands)) && step > least)
-            step /= 2;
-        take_nodes(arc, rule ? rule : rules, low, low + step, &some);
-        use(&some, user);
-        if (!(low + step > low))
-            return;
-        low += step;
-        step = fmin(2 * step, high - low);
-    }
 }
 
 static double sum_of(pair p) {
@@ -264,7 +157,7 @@ typedef struct solid_angle_sum {
 
 /* Adds (u·g) / (1 + u·w), whose integral around the loop is the solid angle for any u whose
  * opposite is not seen. */
-static void add_solid_angle(const nodes *from, void *user) {
+static void add_solid_angle(const lmpi_arc_nodes *from, void *user) {
     solid_angle_sum *to = user;
     pair sum = { 0, 0 };
     for (int k = 0; k < from->pairs; k++)
@@ -285,7 +178,7 @@ void lmpi_loop_close(lmpi_loop *loop) {
     for (int i = 0; i < loop->count; i++) {
         const lmpi_arc *arc = &loop->arc[i];
         if (!arc->straight)
-            visit(arc, -arc->end, arc->end, 1, add_solid_angle, &total);
+            lmpi_arc_visit(arc, -arc->end, arc->end, 1, add_solid_angle, &total);
     }
     int i = 0;
     for (lmpi_arc *a, *b; (a = next_edge(loop, &i));) {
@@ -308,9 +201,9 @@ typedef struct moments_sum {
     double *moments;
 } moments_sum;
 
-static void add_moments(const nodes *from, void *user) {
+static void add_moments(const lmpi_arc_nodes *from, void *user) {
     const moments_sum *to = user;
-    pair z[PAIRS], r[PAIRS], below[PAIRS];
+    pair z[LMPI_ARC_PAIRS], r[LMPI_ARC_PAIRS], below[LMPI_ARC_PAIRS];
     for (int k = 0; k < from->pairs; k++) {
         z[k] = part_along(to->q, from->w, k);
         r[k] = part_along(to->q, from->g, k);
@@ -341,7 +234,7 @@ void lmpi_loop_moments(int bands, const lmpi_loop *loop, lmpi_vector q, double *
         if (arc->straight && arc->angle > 0.01)
             take_edge(arc, q, &straight);
         else
-            visit(arc, -arc->end, arc->end, bands, add_moments, &to);
+            lmpi_arc_visit(arc, -arc->end, arc->end, bands, add_moments, &to);
     }
     if (straight.count > 0)
         add_edge_moments(bands, &straight, moments);
@@ -378,9 +271,9 @@ static azimuth power(azimuth a, int exponent) {
 }
 
 /* Adds a column of monic polynomials q_l^m: q_l = z q_(l-1) - b q_(l-2). */
-static void add_column(const nodes *from, int m, const azimuth_slopes *slopes, int low, int bands,
-                       double *sums) {
-    pair q[PAIRS], q_below[PAIRS], d[PAIRS], d_below[PAIRS];
+static void add_column(const lmpi_arc_nodes *from, int m, const azimuth_slopes *slopes, int low,
+                       int bands, double *sums) {
+    pair q[LMPI_ARC_PAIRS], q_below[LMPI_ARC_PAIRS], d[LMPI_ARC_PAIRS], d_below[LMPI_ARC_PAIRS];
     for (int k = 0; k < from->pairs; k++) {
         q[k] = (pair) { 1, 1 };
         q_below[k] = d[k] = d_below[k] = (pair) { 0, 0 };
@@ -403,10 +296,10 @@ static void add_column(const nodes *from, int m, const azimuth_slopes *slopes, i
     }
 }
 
-static void add_columns(const nodes *from, void *user) {
+static void add_columns(const lmpi_arc_nodes *from, void *user) {
     const columns *to = user;
-    azimuth below[PAIRS];
-    azimuth_slopes slopes[PAIRS];
+    azimuth below[LMPI_ARC_PAIRS];
+    azimuth_slopes slopes[LMPI_ARC_PAIRS];
     for (int k = 0; k < from->pairs; k++)
         below[k] = power((azimuth) { from->w[0][k], from->w[1][k] }, to->m > 0 ? to->m - 1 : 0);
     for (int m = to->m; m < to->m_end; m++) {
@@ -459,7 +352,8 @@ void lmpi_loop_add(int low, int high, const lmpi_loop *loop, const float scale[3
         columns some = { low, high, m, m + together < high ? m + together : high, sums };
         memset(sums, 0, sizeof sums);
         for (int i = 0; i < loop->count; i++)
-            visit(&loop->arc[i], -loop->arc[i].end, loop->arc[i].end, high, add_columns, &some);
+            lmpi_arc_visit(&loop->arc[i], -loop->arc[i].end, loop->arc[i].end, high, add_columns,
+                           &some);
         for (int k = some.m; k < some.m_end; k++) {
             put_column(&some, k, diagonal, scale, planes);
             diagonal = lmpi_sh_next_diagonal(k, diagonal);
@@ -478,7 +372,7 @@ typedef struct horizon_sum {
     double sum;
 } horizon_sum;
 
-static void add_irradiance(const nodes *from, void *user) {
+static void add_irradiance(const lmpi_arc_nodes *from, void *user) {
     horizon_sum *to = user;
     pair sum = { 0, 0 };
     for (int k = 0; k < from->pairs; k++)
@@ -502,8 +396,8 @@ static double angle_between(const lmpi_arc *edge, double low, double high) {
 }
 
 static void add_part(const lmpi_arc *arc, double low, double high, horizon_sum *to) {
-    const lmpi_vector first = arc_at(arc, low);
-    if (!(lmpi_vector_dot(to->n, arc_at(arc, low + (high - low) / 2)) > 0)) {
+    const lmpi_vector first = lmpi_arc_at(arc, low);
+    if (!(lmpi_vector_dot(to->n, lmpi_arc_at(arc, low + (high - low) / 2)) > 0)) {
         to->cut |= !to->begun;
         to->hidden = true;
         return;
@@ -511,14 +405,14 @@ static void add_part(const lmpi_arc *arc, double low, double high, horizon_sum *
     if (arc->straight)
         to->sum += lmpi_vector_dot(to->n, arc->pole) * angle_between(arc, low, high);
     else
-        visit(arc, low, high, 2, add_irradiance, to);
+        lmpi_arc_visit(arc, low, high, 2, add_irradiance, to);
     if (!to->begun)
         to->first = first;
     else if (to->hidden)
         add_along_horizon(to, to->last, first);
     to->begun = true;
     to->hidden = false;
-    to->last = arc_at(arc, high);
+    to->last = lmpi_arc_at(arc, high);
 }
 
 /* Finds where an arc crosses the horizon, n·w = 0, a quadratic in t; returns how often. A straight

@@ -12,22 +12,7 @@
 #ifndef LAMPION_LIGHT_LOOP_H
 #define LAMPION_LIGHT_LOOP_H
 
-#include "src/light/vector.h"
-
-#include <stdbool.h>
-
-/* The points center + (1-t²)/(1+t²) middle + 2t/(1+t²) side for -end <= t <= end, seen from the
- * origin; middle and side are perpendicular and equally long. `end` is the tangent of a quarter of
- * the arc, at most 1. A straight edge has its ends, of any length, its pole, middle x side, and its
- * angle; once closed also center 0, unit vectors, and the cosine and sine of half the angle. */
-typedef struct lmpi_arc {
-    lmpi_vector center, middle, side;
-    double end;
-    bool straight;
-    lmpi_vector from, to, pole;
-    double across, along; /* the length of from x to, and from · to */
-    double angle, cosine, sine;
-} lmpi_arc;
+#include "src/light/arc.h"
 
 /* The boundary of what is seen, counter-clockwise around `inner`: a unit direction within a right
  * angle of all that is seen. */
@@ -63,6 +48,11 @@ void lmpi_loop_moments(int bands, const lmpi_loop *loop, lmpi_vector q, double *
  * that is not NULL; a plane holds only those bands. */
 void lmpi_loop_add(int low, int high, const lmpi_loop *loop, const float scale[3],
                    float *const planes[3]);
+
+/* Computes the derivatives of the coefficients of a closed loop with respect to the viewer's
+ * position, as long as the loop is where it is in space: three planes of LMP_SH_COUNT(bands)
+ * values, d/dx, d/dy, d/dz. */
+void lmpi_loop_gradient(int bands, const lmpi_loop *loop, float *gradient);
 
 /* Returns ∫ max(n·w, 0) dw over what is seen; the loop has ended, and need not be closed. */
 double lmpi_loop_irradiance(const lmpi_loop *loop, lmpi_vector n);
