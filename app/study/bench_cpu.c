@@ -25,8 +25,8 @@ enum { BANDS_TIMED = sizeof bands_timed / sizeof *bands_timed, RUNS_MAX = 401, L
 
 typedef struct measurement {
     const char *isa;
-    timing_quartiles ns; /* per light-point pair */
-    double peak_fraction, vs_paper;
+    timing_quartiles ns;            /* per light-point pair */
+    double peak_fraction, vs_paper; /* vs_paper is 0 if the paper has no formula */
     double stores;    /* ns per pair, of storing as much by the faster kind of store */
     size_t output;    /* bytes written per call */
     double vs_scalar; /* 0 if scalar was not measured */
@@ -120,28 +120,34 @@ static double measure_paper(const bench_kernel *kernel, const bench_batch *b, in
     return timing_of(ns, runs).median;
 }
 
+/* Prints a ratio, or what stands for none. */
+static void print_ratio(const bench_options *o, double ratio, char *to, size_t size) {
+    if (ratio > 0)
+        snprintf(to, size, "%.3g", ratio);
+    else
+        snprintf(to, size, "%s", o->json ? "null" : "-");
+}
+
 static void print_row(const bench_options *o, bool first, const bench_kernel *kernel,
                       const bench_batch *b, const measurement *m) {
     const char *name = b->layout == LMP_SH_PLANAR ? "planar" : "rows";
-    char vs_scalar[32] = "-";
-    if (m->vs_scalar > 0)
-        snprintf(vs_scalar, sizeof vs_scalar, "%.3g", m->vs_scalar);
-    else if (o->json)
-        strcpy(vs_scalar, "null");
+    char vs_scalar[32], vs_paper[32];
+    print_ratio(o, m->vs_scalar, vs_scalar, sizeof vs_scalar);
+    print_ratio(o, m->vs_paper, vs_paper, sizeof vs_paper);
     if (o->json)
         printf("%s    {\"kernel\": \"%s\", \"bands\": %d, \"isa\": \"%s\", \"layout\": \"%s\", "
                "\"ns\": %.4g, \"ns_quartiles\": [%.4g, %.4g], \"peak_fraction\": %.3f, "
                "\"stores_ns\": %.3g, \"output_bytes\": %zu, \"working_set\": \"%s\", \"vs_paper\": "
-               "%.3g, "
+               "%s, "
                "\"vs_scalar\": %s}",
                first ? "" : ",\n", kernel->name, b->bands, m->isa, name, m->ns.median, m->ns.lower,
                m->ns.upper, m->peak_fraction, m->stores, m->output, working_set(m->output),
-               m->vs_paper, vs_scalar);
+               vs_paper, vs_scalar);
     else
-        printf("%-23s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %6.3g %6.5g %-6s %9.3g %9s\n",
+        printf("%-23s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %6.3g %6.5g %-6s %9s %9s\n",
                kernel->name, b->bands, m->isa, name, m->ns.median, m->ns.lower, m->ns.upper,
                m->peak_fraction, m->stores, (double)m->output / 1024, working_set(m->output),
-               m->vs_paper, vs_scalar);
+               vs_paper, vs_scalar);
     fflush(stdout);
 }
 
@@ -149,7 +155,7 @@ static void print_row(const bench_options *o, bool first, const bench_kernel *ke
 static void measure_batch(const bench_options *o, const bench_kernel *kernel, const bench_batch *b,
                           bool *first) {
     const int runs = o->full ? 301 : 31;
-    const double paper = measure_paper(kernel, b, o->full ? 31 : 5);
+    const double paper = kernel->paper ? measure_paper(kernel, b, o->full ? 31 : 5) : 0;
     double scalar = 0;
     for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
         if (!(flag & (unsigned)o->mask & lmp_cpu_flags()))

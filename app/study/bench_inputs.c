@@ -26,6 +26,32 @@ static void kinds_create(bench_inputs *in) {
     }
 }
 
+static lmp_vec3 scaled(lmp_vec3 v, float factor) {
+    return (lmp_vec3) { factor * v.x, factor * v.y, factor * v.z };
+}
+
+/* Makes rectangles around the spheres' positions, facing the points, as wide as they are far; on
+ * the same lines forty times as far; and through the points' floor, whose surfaces look up and
+ * aside. */
+static void areas_create(bench_inputs *in) {
+    for (int i = 0; i < BENCH_LIGHTS; i++) {
+        const lmp_vec3 at = in->lights[i].position;
+        const float flat = sqrtf(at.x * at.x + at.y * at.y),
+                    far = sqrtf(at.x * at.x + at.y * at.y + at.z * at.z);
+        const lmp_vec3 x = { at.y / flat, -at.x / flat, 0 };
+        const lmp_vec3 y = { x.y * at.z / far, -x.x * at.z / far, (x.x * at.y - x.y * at.x) / far };
+        const float size = 0.5f * far;
+        const lmp_light light = { .kind = LMP_LIGHT_RECTANGLE,
+                                  .position = at,
+                                  .half = { scaled(x, size), scaled(y, size) },
+                                  .two_sided = true,
+                                  .radiance = in->lights[i].radiance };
+        in->areas.large[i] = in->areas.small[i] = in->areas.cut[i] = light;
+        in->areas.small[i].position = scaled(at, 40);
+        in->areas.cut[i].position = (lmp_vec3) { at.x, at.y, 0 };
+    }
+}
+
 bool bench_inputs_create(bench_inputs *in) {
     const size_t values =
         12 * (size_t)BENCH_OUTPUT_FLOATS + 16 * 12 * LMP_SH_COUNT(LMP_BANDS_MAX) * 4;
@@ -70,6 +96,7 @@ bool bench_inputs_create(bench_inputs *in) {
                           .radiance = { in->radiance[0][i], in->radiance[1][i],
                                         in->radiance[2][i] } };
     kinds_create(in);
+    areas_create(in);
     lmp_lobe_make_phong(LMP_BANDS_MAX, 20, in->lambda);
     in->out = aligned_alloc(64, values * sizeof(float));
     in->vectors = aligned_alloc(64, values * sizeof(float));
@@ -124,6 +151,7 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
     b.out = in->out;
     b.lights = in->lights;
     b.kinds = in->kinds;
+    b.areas = &in->areas;
     b.lobe = in->lobes;
     b.field = in->field;
     b.surfaces = (lmp_surfaces) { .position = b.points,

@@ -17,6 +17,7 @@ typedef struct bench_inputs {
     float *out, *vectors, *matrices;
     void *scratch;
     lmp_light lights[BENCH_LIGHTS], kinds[BENCH_LIGHTS]; /* spheres; all kinds, as in a level */
+    bench_areas areas;
     /* The tables that the current kernel reads. */
     lmp_preintegrated_lobe *lobes;
     lmp_brdf_table *table;

@@ -111,6 +111,20 @@ static void run_shade_zonal(const bench_batch *b) {
     lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, BENCH_LIGHTS,
                 (lmp_rgb_array) { b->out, 0 });
 }
+static void run_shade_areas(const bench_batch *b, const lmp_light *areas) {
+    const lmp_shade_settings settings = { .bands = b->bands };
+    lmp_shade_n(&settings, &b->surfaces, b->count, areas, BENCH_LIGHTS,
+                (lmp_rgb_array) { b->out, 0 });
+}
+static void run_shade_rectangle(const bench_batch *b) {
+    run_shade_areas(b, b->areas->large);
+}
+static void run_shade_rectangle_small(const bench_batch *b) {
+    run_shade_areas(b, b->areas->small);
+}
+static void run_shade_rectangle_cut(const bench_batch *b) {
+    run_shade_areas(b, b->areas->cut);
+}
 static void run_shade_environment(const bench_batch *b) {
     const lmp_shade_settings settings = { .bands = b->bands };
     const lmp_environment environment = { b->vectors, b->bands };
@@ -239,6 +253,19 @@ static double slots_shade_zonal(int n) {
 static double slots_shade_ggx(int n) {
     return slots_shade_zonal(n) + 2 * slots_shade_phong(n);
 }
+/* Doubles, which take two slots each. A rectangle's place, its corners, edges and angles, and what
+ * the diffuse lobe receives; its solid angle; a lobe's slopes, then its bands. Four points: their
+ * directions and strengths; a lobe's cosines, then its bands. The horizon: crossings, and the
+ * angles of what it leaves. */
+static double slots_shade_rectangle(int n) {
+    return 2 * (40 + 336 + 48 + 42 + 105 + 92 + 144 + 57 * later(n));
+}
+static double slots_shade_points(int n) {
+    return 2 * (40 + 144 + 42 + 28 + 18.0 * n);
+}
+static double slots_shade_cut(int n) {
+    return slots_shade_rectangle(n) + 2 * 460;
+}
 /* A lookup of floats (products of 16-bit coefficients with their weights are integers):
  * coordinates, weights of two splines, rounding, four rows; before that, an angle. */
 enum { SLOTS_READING = 21 + 4 + 30 + 19 + 9 };
@@ -305,6 +332,12 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
       .one_layout = true },
     { "dot", values_basis, slots_dot, run_dot, bench_paper_dot, .lights = 1 },
     { "shade-zonal", values_lobe, slots_shade_zonal, run_shade_zonal, bench_paper_shade,
+      .lights = BENCH_LIGHTS, .one_layout = true },
+    { "shade-rectangle", values_lobe, slots_shade_rectangle, run_shade_rectangle, NULL,
+      .lights = BENCH_LIGHTS, .one_layout = true },
+    { "shade-rectangle-small", values_lobe, slots_shade_points, run_shade_rectangle_small, NULL,
+      .lights = BENCH_LIGHTS, .one_layout = true },
+    { "shade-rectangle-cut", values_lobe, slots_shade_cut, run_shade_rectangle_cut, NULL,
       .lights = BENCH_LIGHTS, .one_layout = true },
     { "shade-preintegrated", values_lobe, slots_shade_lobe, run_shade_preintegrated,
       bench_paper_shade, .lights = BENCH_LIGHTS, .one_layout = true, .table = BENCH_TABLE_LOBES },

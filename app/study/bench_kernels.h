@@ -21,6 +21,11 @@ enum {
     BENCH_OUTPUT_FLOATS = 6144
 };
 
+/* Rectangles that are 53 degrees wide, that look small, and that the horizon cuts. */
+typedef struct bench_areas {
+    lmp_light large[BENCH_LIGHTS], small[BENCH_LIGHTS], cut[BENCH_LIGHTS];
+} bench_areas;
+
 /* The inputs and outputs of a kernel. */
 typedef struct bench_batch {
     int bands;
@@ -31,6 +36,7 @@ typedef struct bench_batch {
     const float *distances, *lambda, *matrices, *vectors;
     lmp_surfaces surfaces;
     const lmp_light *lights, *kinds;
+    const bench_areas *areas;
     const lmp_preintegrated_lobe *lobe; /* for kernels that read a lobe */
     lmp_field *field;                   /* for kernels that read a field */
     lmp_scratch scratch;                /* of the thread */
@@ -53,16 +59,16 @@ typedef struct bench_kernel {
     size_t (*values)(int bands); /* per element */
     double (*slots)(int bands);  /* mul, add, div and sqrt per light-point pair */
     void (*run)(const bench_batch *b);
-    void (*paper)(const bench_batch *b, size_t element);
-    int lights;      /* pairs per element */
-    bool one_layout; /* its output is interleaved alone */
+    void (*paper)(const bench_batch *b, size_t element); /* NULL: the paper has no formula */
+    int lights;                                          /* pairs per element */
+    bool one_layout;                                     /* its output is interleaved alone */
     bench_table table;
     bool ggx;      /* shades glTF's metallic-roughness */
     int bands_max; /* the most that it has; 0: any number */
     bool large;    /* does little but store: measured on large outputs, too */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 27 };
+enum { BENCH_KERNELS = 30 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
 /* --- bench_paper.c: elements of the same work by the paper's formulas, one at a time ---------- */

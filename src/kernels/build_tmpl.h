@@ -33,6 +33,7 @@
 #include "src/kernels/reconstruct_tmpl.h"
 #include "src/kernels/refine_tmpl.h"
 #include "src/kernels/rows_tmpl.h"
+#include "src/kernels/shade_polygons_tmpl.h"
 #include "src/kernels/shade_zonal_tmpl.h"
 #include "src/kernels/vectors_tmpl.h"
 
@@ -80,6 +81,7 @@ const lmpi_kernels LMPI_KERNELS = {
     .field.refine_add = kernel_refine_add,
     .lobe.response = kernel_lobe,
     .shade.zonal = kernel_shade_zonal,
+    .shade.polygons = kernel_shade_polygons,
     .shade.field = kernel_shade_field,
     .shade.preintegrated_lobe = kernel_shade_preintegrated_lobe,
     .shade.preintegrated_brdf = kernel_shade_preintegrated_brdf,

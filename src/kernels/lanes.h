@@ -9,6 +9,9 @@
  *                      they came from and broadcast the product, two operations for one; it would
  *                      put off a long sum's terms to its end and spill
  *   vf_sqrt, vf_max, vf_min, vf_any_less
+ *   vd_max, vd_any_less, vh_per_root, vd_from, vh_from
+ *                      for the doubles and as many floats of lanes_double.h: vh_per_root is
+ *                      1 / sqrt, and the last two convert
  *   vf_load_first      the first `count` lanes, 1 … LMPI_LANES - 1; the others are 0 and not read
  *   vf_store_first     the first `count` lanes; nothing past them is written
  *   vf_number          a number that is the same in every lane, as an operand in memory that costs
@@ -52,7 +55,14 @@ typedef float vf4 __attribute__((vector_size(16)));
 typedef float vf;
 typedef int32_t vi;
 
+#define LMPI_DOUBLES 1
+typedef double vd;
+typedef float vh;
+
 LMPI_INLINE vf vf_select_less(vf a, vf b, vf yes, vf no) {
+    return a < b ? yes : no;
+}
+LMPI_INLINE vd vd_select_less(vd a, vd b, vd yes, vd no) {
     return a < b ? yes : no;
 }
 LMPI_INLINE vi vi_from(vf x) {
@@ -67,9 +77,18 @@ LMPI_INLINE vf vf_from(vi x) {
 typedef float vf __attribute__((vector_size(4 * LMPI_LANES)));
 typedef int32_t vi __attribute__((vector_size(4 * LMPI_LANES)));
 
+#define LMPI_DOUBLES (LMPI_LANES / 2)
+typedef double vd __attribute__((vector_size(8 * LMPI_DOUBLES)));
+typedef int64_t vd_mask __attribute__((vector_size(8 * LMPI_DOUBLES)));
+typedef float vh __attribute__((vector_size(4 * LMPI_DOUBLES)));
+
 LMPI_INLINE vf vf_select_less(vf a, vf b, vf yes, vf no) {
     const vi mask = (vi)(a < b);
     return (vf)((mask & (vi)yes) | (~mask & (vi)no));
+}
+LMPI_INLINE vd vd_select_less(vd a, vd b, vd yes, vd no) {
+    const vd_mask mask = (vd_mask)(a < b);
+    return (vd)((mask & (vd_mask)yes) | (~mask & (vd_mask)no));
 }
 LMPI_INLINE vi vi_from(vf x) {
     return __builtin_convertvector(x, vi);
@@ -109,5 +128,7 @@ LMPI_INLINE vi vi_bits(vf v) {
 #elif LMPI_LANES == 16
 #include "src/kernels/lanes_16.h"
 #endif
+
+#include "src/kernels/lanes_double.h"
 
 #endif

@@ -20,6 +20,21 @@ LMPI_INLINE vf vf_min(vf a, vf b) {
 LMPI_INLINE int vf_any_less(vf a, vf b) {
     return a < b;
 }
+LMPI_INLINE vd vd_max(vd a, vd b) {
+    return a > b ? a : b;
+}
+LMPI_INLINE int vd_any_less(vd a, vd b) {
+    return a < b;
+}
+LMPI_INLINE vh vh_per_root(vh a) {
+    return 1 / sqrtf(a);
+}
+LMPI_INLINE vd vd_from(vh x) {
+    return (double)x;
+}
+LMPI_INLINE vh vh_from(vd x) {
+    return (float)x;
+}
 
 LMPI_INLINE vf vf_load_first(const float *from, int count) {
     (void)count; /* there is no such count */

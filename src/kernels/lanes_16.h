@@ -20,6 +20,21 @@ LMPI_INLINE vf vf_min(vf a, vf b) {
 LMPI_INLINE int vf_any_less(vf a, vf b) {
     return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ) != 0;
 }
+LMPI_INLINE vd vd_max(vd a, vd b) {
+    return (vd)_mm512_max_pd((__m512d)a, (__m512d)b);
+}
+LMPI_INLINE int vd_any_less(vd a, vd b) {
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ) != 0;
+}
+LMPI_INLINE vh vh_per_root(vh a) {
+    return (vh)_mm256_div_ps(_mm256_set1_ps(1), _mm256_sqrt_ps((__m256)a));
+}
+LMPI_INLINE vd vd_from(vh x) {
+    return (vd)_mm512_cvtps_pd((__m256)x);
+}
+LMPI_INLINE vh vh_from(vd x) {
+    return (vh)_mm512_cvtpd_ps((__m512d)x);
+}
 
 LMPI_INLINE vf vf_load_first(const float *from, int count) {
     return (vf)_mm512_maskz_loadu_ps((__mmask16)((1u << count) - 1), from);

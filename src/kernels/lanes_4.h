@@ -29,6 +29,19 @@ typedef vf vf_number;
 #define vf_number_of(number)    vf_set(number)
 #define vf_number_lanes(number) (number)
 
+LMPI_INLINE vh vh_per_root(vh a) {
+    const vf4 of = { a[0], a[1], 1, 1 };
+    vf4 per;
+    vf4_per_root(&of, &per);
+    return (vh) { per[0], per[1] };
+}
+LMPI_INLINE vd vd_from(vh x) {
+    return __builtin_convertvector(x, vd);
+}
+LMPI_INLINE vh vh_from(vd x) {
+    return __builtin_convertvector(x, vh);
+}
+
 #define LMPI_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, 4 + (k), 4 + (l))
 
 LMPI_INLINE vf layout_quarters(const float *const from[1]) {

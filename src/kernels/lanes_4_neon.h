@@ -19,6 +19,12 @@ LMPI_INLINE vf vf_min(vf a, vf b) {
 LMPI_INLINE int vf_any_less(vf a, vf b) {
     return vmaxvq_u32(vcltq_f32((float32x4_t)a, (float32x4_t)b)) != 0;
 }
+LMPI_INLINE vd vd_max(vd a, vd b) {
+    return vd_select_less(b, a, a, b);
+}
+LMPI_INLINE int vd_any_less(vd a, vd b) {
+    return vmaxvq_u32((uint32x4_t)vcltq_f64((float64x2_t)a, (float64x2_t)b)) != 0;
+}
 
 #include "src/kernels/lanes_4_any.h"
 

@@ -20,6 +20,12 @@ LMPI_INLINE vf vf_min(vf a, vf b) {
 LMPI_INLINE int vf_any_less(vf a, vf b) {
     return _mm_movemask_ps(_mm_cmplt_ps((__m128)a, (__m128)b)) != 0;
 }
+LMPI_INLINE vd vd_max(vd a, vd b) {
+    return (vd)_mm_max_pd((__m128d)a, (__m128d)b);
+}
+LMPI_INLINE int vd_any_less(vd a, vd b) {
+    return _mm_movemask_pd(_mm_cmplt_pd((__m128d)a, (__m128d)b)) != 0;
+}
 
 LMPI_INLINE void vf_stream(float *to, vf v) {
     _mm_stream_ps(to, (__m128)v);

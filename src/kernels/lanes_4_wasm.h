@@ -20,6 +20,12 @@ LMPI_INLINE vf vf_min(vf a, vf b) {
 LMPI_INLINE int vf_any_less(vf a, vf b) {
     return wasm_v128_any_true(wasm_f32x4_lt((v128_t)a, (v128_t)b));
 }
+LMPI_INLINE vd vd_max(vd a, vd b) {
+    return (vd)wasm_f64x2_pmax((v128_t)b, (v128_t)a);
+}
+LMPI_INLINE int vd_any_less(vd a, vd b) {
+    return wasm_v128_any_true(wasm_f64x2_lt((v128_t)a, (v128_t)b));
+}
 
 #include "src/kernels/lanes_4_any.h"
 

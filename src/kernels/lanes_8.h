@@ -20,6 +20,21 @@ LMPI_INLINE vf vf_min(vf a, vf b) {
 LMPI_INLINE int vf_any_less(vf a, vf b) {
     return _mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LT_OQ)) != 0;
 }
+LMPI_INLINE vd vd_max(vd a, vd b) {
+    return (vd)_mm256_max_pd((__m256d)a, (__m256d)b);
+}
+LMPI_INLINE int vd_any_less(vd a, vd b) {
+    return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a, (__m256d)b, _CMP_LT_OQ)) != 0;
+}
+LMPI_INLINE vh vh_per_root(vh a) {
+    return (vh)_mm_div_ps(_mm_set1_ps(1), _mm_sqrt_ps((__m128)a));
+}
+LMPI_INLINE vd vd_from(vh x) {
+    return (vd)_mm256_cvtps_pd((__m128)x);
+}
+LMPI_INLINE vh vh_from(vd x) {
+    return (vh)_mm256_cvtpd_ps((__m256d)x);
+}
 
 LMPI_INLINE vf vf_load_twice(const float *from) {
     return (vf)_mm256_broadcast_ps((const __m128 *)(const void *)from);

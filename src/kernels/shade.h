@@ -4,6 +4,7 @@
 #define LAMPION_KERNELS_SHADE_H
 
 #include "src/kernels/lobe.h"
+#include "src/kernels/polygon.h"
 
 /* Surfaces to shade. Those with lobes have a diffuse lobe around the normal, and 1, 3 or 5 Phong
  * lobes, or none of these by `zonal`; a BRDF uses `view` instead. */
@@ -56,6 +57,10 @@ typedef struct lmpi_shade_kernels {
     void (*zonal)(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
                   const lmpi_packed_light *lights, size_t light_count, size_t count,
                   const lmpi_kernel_accumulated *accumulated);
+    /* Does `zonal` with flat lights that have corners. */
+    void (*polygons)(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
+                     const lmpi_kernel_polygon *lights, size_t light_count, size_t count,
+                     const lmpi_kernel_accumulated *accumulated);
     /* Adds what the lobes reflect of light given by its coefficients at each surface, 3 bands^2
      * values, planar and readable like planes; diffuse[l] are the factors of the diffuse lobe. */
     void (*field)(int bands, const float *window, const float *diffuse,

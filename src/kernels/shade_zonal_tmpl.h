@@ -59,7 +59,7 @@ LMPI_INLINE void zonal_weigh(int bands, const zonal_work *work, int lobe, int ro
         vf *weights = zonal_weights(bands, work, row, i);
         /* Neighbors often have the same material. */
         if ((i == 0 && !kept) || memcmp(exponent, exponent - LMPI_LANES, sizeof(vf)) != 0)
-            zonal_phong(bands, work->tables, vf_load(exponent), weights);
+            zonal_phong(bands, work->tables->phong, vf_load(exponent), weights);
         else if (i > 0)
             memcpy(weights, weights - bands, (size_t)bands * sizeof *weights);
     }

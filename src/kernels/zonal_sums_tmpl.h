@@ -37,13 +37,13 @@ static inline void zonal_prepare(int bands, int monic, const float *window, zona
     }
 }
 
-/* Computes the weights lambda_l = lambda_(l-2) (e - l + 2) / (e + l + 1), of the lobe of integral
- * 1. */
-LMPI_INLINE void zonal_phong(int bands, const zonal_tables *tables, vf exponent, vf *weights) {
+/* Computes lambda_l = lambda_(l-2) (e - l + 2) / (e + l + 1), of the lobe of integral 1, times
+ * factors[l]. */
+LMPI_INLINE void zonal_phong(int bands, const float *factors, vf exponent, vf *weights) {
     vf before = vf_set(1), lambda = (exponent + 1) / (exponent + 2);
-    weights[0] = before * tables->phong[0];
+    weights[0] = before * factors[0];
     LMPI_ROLLED for (int l = 1; l < bands; l++) {
-        weights[l] = lambda * tables->phong[l];
+        weights[l] = lambda * factors[l];
         const vf next = before * ((exponent - (float)(l - 1)) / (exponent + (float)(l + 2)));
         before = lambda;
         lambda = next;

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* area.c - areas, which no kernel takes: their light is added to what a chunk of surfaces has
- * accumulated, surface by surface. */
+/* area.c - adds the light of areas to what a chunk of surfaces has accumulated: of those with
+ * corners by a kernel, of disks and tubes surface by surface. */
+#include "src/kernels/dispatch.h"
 #include "src/lobe/response.h"
 #include "src/shade/method.h"
 
 static const float pi = 3.14159265f;
+
+/* The most polygons that a kernel is given at once. */
+enum { SHADE_POLYGONS_MAX = 4 };
 
 /* The weights of a lobe of this exponent, once they are known. */
 typedef struct lobe_weights {
@@ -52,26 +56,55 @@ static void add_area(const shade_prepared *prepared, const shade_chunk *chunk,
 
 /* Adds the light of an area on all surfaces; neighbors often have the same material. */
 static void add_area_everywhere(const shade_prepared *prepared, const shade_chunk *chunk,
-                                lobe_weights *lobes, const lmp_light *light) {
+                                lobe_weights *lobes, const lmpi_area *area) {
     const int phong_count = chunk->is_matte ? 0 : chunk->phong_count;
-    lmpi_area area;
-    lmpi_area_prepare(light, &area);
     for (size_t i = 0; i < chunk->count; i++) {
         for (int k = 0; k < phong_count; k++) {
             const float exponent = chunk->surfaces.lobe[k].exponent[i];
             if (!lobes[k].known || exponent != lobes[k].exponent)
                 weigh(prepared, exponent, &lobes[k]);
         }
-        add_area(prepared, chunk, lobes, phong_count, &area, i);
+        add_area(prepared, chunk, lobes, phong_count, area, i);
     }
+}
+
+/* Polygons that wait for a kernel. */
+typedef struct polygons {
+    size_t count;
+    lmpi_kernel_polygon polygon[SHADE_POLYGONS_MAX];
+} polygons;
+
+static void add_polygons(const shade_prepared *prepared, const shade_chunk *chunk,
+                         polygons *waiting) {
+    lmpi_kernel_surfaces surfaces = chunk->surfaces;
+    if (chunk->is_matte)
+        surfaces.lobe_count = 0;
+    lmpi_kernels_get()->shade.polygons(prepared->bands, prepared->window, &surfaces,
+                                       waiting->polygon, waiting->count, chunk->count,
+                                       &chunk->sums);
+    waiting->count = 0;
 }
 
 LMPI_NOINLINE void lmpi_shade_add_areas(const shade_prepared *prepared, const shade_chunk *chunk,
                                         const lmp_light *lights, size_t count) {
     lobe_weights lobes[LMPI_KERNEL_LOBES_MAX];
+    polygons waiting;
+    waiting.count = 0;
     for (int k = 0; k < LMPI_KERNEL_LOBES_MAX; k++)
         lobes[k].known = false;
-    for (size_t light = 0; light < count; light++)
-        if (lmpi_light_is_area(&lights[light]))
-            add_area_everywhere(prepared, chunk, lobes, &lights[light]);
+    for (size_t i = 0; i < count; i++) {
+        lmpi_area area;
+        if (!lmpi_light_is_area(&lights[i]))
+            continue;
+        lmpi_area_prepare(&lights[i], &area);
+        if (!lmpi_area_has_corners(&area)) {
+            add_area_everywhere(prepared, chunk, lobes, &area);
+            continue;
+        }
+        lmpi_area_pack(&area, &waiting.polygon[waiting.count++]);
+        if (waiting.count == SHADE_POLYGONS_MAX)
+            add_polygons(prepared, chunk, &waiting);
+    }
+    if (waiting.count > 0)
+        add_polygons(prepared, chunk, &waiting);
 }

@@ -288,6 +288,13 @@ static void wrong_shade_zonal(int bands, const float *window, const lmpi_kernel_
     honest.shade.zonal(bands, window, surfaces, lights, light_count, count, accumulated);
     spoil_accumulated(accumulated);
 }
+static void wrong_shade_polygons(int bands, const float *window,
+                                 const lmpi_kernel_surfaces *surfaces,
+                                 const lmpi_kernel_polygon *lights, size_t light_count,
+                                 size_t count, const lmpi_kernel_accumulated *accumulated) {
+    honest.shade.polygons(bands, window, surfaces, lights, light_count, count, accumulated);
+    spoil_accumulated(accumulated);
+}
 static void wrong_shade_preintegrated_lobe(const lmpi_kernel_preintegrated_lobe *lobe,
                                            const lmpi_kernel_lobe_positions *specular,
                                            const lmpi_kernel_surfaces *surfaces,
@@ -331,6 +338,7 @@ static const lmpi_kernels wrong = { .sh.eval = wrong_eval,
                                     .sh.reconstruct = wrong_reconstruct,
                                     .sh.image = wrong_image,
                                     .shade.zonal = wrong_shade_zonal,
+                                    .shade.polygons = wrong_shade_polygons,
                                     .shade.field = wrong_shade_field,
                                     .shade.preintegrated_lobe = wrong_shade_preintegrated_lobe,
                                     .shade.preintegrated_brdf = wrong_shade_preintegrated_brdf };

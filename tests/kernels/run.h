@@ -41,6 +41,8 @@ typedef enum kind {
     ACCUMULATE_DIRACS,
     ADD,
     CONE,
+    SHADE_POLYGONS,
+    SHADE_POLYGONS_ALL,
     KINDS
 } kind;
 static const char *const kind_names[] = { "eval",
@@ -69,7 +71,9 @@ static const char *const kind_names[] = { "eval",
                                           "accumulate_more",
                                           "accumulate of Diracs",
                                           "add",
-                                          "cone" };
+                                          "cone",
+                                          "shade_polygons",
+                                          "shade_polygons of all lobes" };
 
 /* Returns how many Phong lobes a kernel of shading takes. */
 static int lobes_of(kind which) {
@@ -80,6 +84,7 @@ static int lobes_of(kind which) {
     case SHADE_ZONAL_ALL:
     case SHADE_PREINTEGRATED_LOBE_ALL:
     case SHADE_FIELD:
+    case SHADE_POLYGONS_ALL:
         return LMPI_KERNEL_LOBES_MAX;
     default:
         return 1;
@@ -124,6 +129,8 @@ static size_t values_of(kind which, int bands) {
     case SHADE_ZONAL_ALL:
     case SHADE_PREINTEGRATED_LOBE_ALL:
     case SHADE_FIELD:
+    case SHADE_POLYGONS:
+    case SHADE_POLYGONS_ALL:
         return 3 + 3 * (size_t)lobes_of(which);
     default:
         return n;
@@ -237,6 +244,9 @@ static void call_shading(const lmpi_kernels *k, kind which, const shading *s, si
     const lmpi_kernel_preintegrated_lobe table = { s->pairs };
     if (which == SHADE_FIELD)
         k->shade.field(s->bands, s->window, s->diffuse, &surfaces, &s->sh, count, &sums);
+    else if (which == SHADE_POLYGONS || which == SHADE_POLYGONS_ALL)
+        k->shade.polygons(s->bands, s->window, &surfaces, s->polygons, SHADE_POLYGON_COUNT, count,
+                          &sums);
     else if (is_zonal(which))
         k->shade.zonal(s->bands, s->window, &surfaces, s->lights, SHADE_LIGHTS, count, &sums);
     else if (which != SHADE_PREINTEGRATED_BRDF)

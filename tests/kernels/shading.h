@@ -5,6 +5,7 @@
 #define LAMPION_SHADING_H
 
 #include "src/kernels/dispatch.h"
+#include "src/light/seen.h"
 #include "tests/kernels/inputs.h"
 #include "tests/oracle/oracle.h"
 
@@ -12,7 +13,15 @@
 
 #include <string.h>
 
-enum { SHADE_LIGHTS = 11, CELLS = 3, VIEWS = 5, CAPS = 4, VIEW_STEPS = 16, CAP_STEPS = 12 };
+enum {
+    SHADE_LIGHTS = 11,
+    SHADE_POLYGON_COUNT = 7,
+    CELLS = 3,
+    VIEWS = 5,
+    CAPS = 4,
+    VIEW_STEPS = 16,
+    CAP_STEPS = 12
+};
 
 typedef struct shading {
     const inputs *in;
@@ -20,6 +29,7 @@ typedef struct shading {
     _Alignas(64) float axis[LMPI_KERNEL_LOBES_MAX][3][COUNT + 16];
     _Alignas(64) float exponent[LMPI_KERNEL_LOBES_MAX][COUNT + 16];
     lmpi_packed_light lights[SHADE_LIGHTS];
+    lmpi_kernel_polygon polygons[SHADE_POLYGON_COUNT];
     lmp_rgb ambient;
     float window[LMP_BANDS_MAX], diffuse[LMP_BANDS_MAX];
     lmpi_kernel_in sh; /* the light at each surface */
@@ -65,6 +75,41 @@ static void make_lights(shading *s) {
         }
     }
     s->ambient = (lmp_rgb) { 0.5f, 0.25f, 1 };
+}
+
+static lmp_vec3 combined(const lmp_vec3 half[2], float a, float b) {
+    return (lmp_vec3) { a * half[0].x + b * half[1].x, a * half[0].y + b * half[1].y,
+                        a * half[0].z + b * half[1].z };
+}
+
+/* Makes flat lights of 3 to 8 corners in place of spheres, touched, seen edge-on, near and far. */
+static void make_polygons(shading *s) {
+    const inputs *in = s->in;
+    static const int element[] = { 0, 1, 6, 9, 20, 21, 22 }, corners[] = { 4, 4, 4, 3, 5, 6, 8 };
+    static const float outline[8][2] = { { 1, 0 },  { 1, 1 },   { 0, 0.5f }, { -1, 1 },
+                                         { -1, 0 }, { -1, -1 }, { 0, -1 },   { 0.5f, -1 } };
+    for (int i = 0; i < SHADE_POLYGON_COUNT; i++) {
+        const int e = element[i];
+        const float size = in->radius[e];
+        const lmp_vec3 half[2] = {
+            { size * in->axis[0][e], size * in->axis[1][e], size * in->axis[2][e] },
+            { size * in->axis[1][e], -size * in->axis[0][e], size * in->axis[2][e + 1] }
+        };
+        lmp_light light = { .kind = i < 3 ? LMP_LIGHT_RECTANGLE : LMP_LIGHT_POLYGON,
+                            .position = { in->center[0][e], in->center[1][e], in->center[2][e] },
+                            .two_sided = i % 3 != 2,
+                            .corner_count = corners[i],
+                            .radiance = { in->rgb[0][i], in->rgb[1][i], in->rgb[2][i] } };
+        if (i < 3)
+            memcpy(light.half, half, sizeof half);
+        for (int c = 0; i >= 3 && c < corners[i]; c++) {
+            const float *at = outline[c * 8 / corners[i]];
+            light.corner[c] = combined(half, at[0], at[1]);
+        }
+        lmpi_area area;
+        lmpi_area_prepare(&light, &area);
+        lmpi_area_pack(&area, &s->polygons[i]);
+    }
 }
 
 static int16_t number(void) {
@@ -200,6 +245,7 @@ static shading *shading_create(const inputs *in, int bands, int lobes) {
     s->lobes = lobes;
     set_seed((uint64_t)bands * 77 + 5);
     make_lights(s);
+    make_polygons(s);
     make_preintegrated_lobe(s);
     make_preintegrated_brdf(s);
     make_lobes(s);

@@ -49,6 +49,20 @@ static const lmp_light area = { .kind = LMP_LIGHT_TUBE,
                                 .half = { { 1, 0, 0 } },
                                 .radius = 0.5f,
                                 .radiance = { 1, 1, 1 } };
+/* And one with the most corners, for the kernels. */
+static const lmp_light panel = { .kind = LMP_LIGHT_POLYGON,
+                                 .position = { 0, 0, 3 },
+                                 .two_sided = true,
+                                 .corner_count = 8,
+                                 .corner = { { 2, 1, 0 },
+                                             { 1, 2, 0 },
+                                             { -1, 2, 0 },
+                                             { -2, 1, 0 },
+                                             { -2, -1, 0 },
+                                             { -1, -2, 0 },
+                                             { 1, -2, 0 },
+                                             { 2, -1, 0 } },
+                                 .radiance = { 1, 1, 1 } };
 static lmp_cap cap;
 static lmp_spheres spheres;
 static lmp_vec3_array points;
@@ -109,6 +123,7 @@ static void shade_all_ways(void) {
                 continue; /* areas do not shine on them */
             (void)lmp_shade(&settings, &material, &surface, &area, 1);
             lmp_shade_n(&settings, &surfaces, COUNT, &area, 1, (lmp_rgb_array) { rgb, 0 });
+            lmp_shade_n(&settings, &surfaces, COUNT, &panel, 1, (lmp_rgb_array) { rgb, 0 });
         }
 }
 
