@@ -12,7 +12,7 @@ check=no
 build=$(realpath "$1")
 shift
 cd "$(dirname "$0")/../.."
-[ $# -gt 0 ] || set -- accuracy areas fields ggx layers preintegration-notes shadows
+[ $# -gt 0 ] || set -- accuracy areas fields ggx layers preintegration-notes shadows transfer
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -124,6 +124,8 @@ measure() {
     preintegration-notes.materials) material_errors ;;
     shadows.rays) shadow_rays ;;
     shadows.samples) shadow_samples ;;
+    transfer.reading) test_prints unit/test_unit_transfer_room 'links_err*' | named "$1" ;;
+    transfer.iterations) test_prints unit/test_unit_transfer_room 'iterations_add*' | named "$1" ;;
     layers.sheen) test_prints unit/test_unit_brdf_sheen 'bands_come*' | named "$1" ;;
     ggx.*) test_prints unit/test_unit_ggx_lobes "$(
         case $1 in
@@ -140,7 +142,7 @@ measure() {
 # is_quick TABLE: takes no more than a few seconds.
 is_quick() {
     case $1 in
-    layers.sheen | ggx.energy | preintegration-notes.lobes) ;;
+    layers.sheen | ggx.energy | preintegration-notes.lobes | transfer.*) ;;
     *) return 1 ;;
     esac
 }

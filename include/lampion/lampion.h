@@ -12,6 +12,7 @@
  *   material.h       what surfaces are made of
  *   shade.h          the light that surfaces reflect: where most programs begin
  *   field.h          thousands of lights on a grid
+ *   transfer.h       light that bounces between surfaces
  *   cpu.h            instruction sets */
 #ifndef LAMPION_LAMPION_H
 #define LAMPION_LAMPION_H
@@ -28,5 +29,6 @@
 #include <lampion/sh.h>
 #include <lampion/shade.h>
 #include <lampion/sphere.h>
+#include <lampion/transfer.h>
 
 #endif

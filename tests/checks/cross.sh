@@ -110,6 +110,7 @@ sh
 shade
 shade_n
 sphere
+transfer
 window
 UNITS
 echo "$(grep -c '^passed: ' "$WORK/log") unit tests passed"

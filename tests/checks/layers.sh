@@ -23,8 +23,9 @@ may_include() {
     material) echo base brdf preintegrated material ;;
     shade) echo base kernels sh sphere light lobe brdf preintegrated material shade ;;
     field) echo base kernels sh sphere light lobe brdf preintegrated material shade field ;;
+    transfer) echo base kernels sh sphere light lobe brdf preintegrated material shade field transfer ;;
     cpu) echo base cpu ;;
-    lampion) echo base cpu sh sphere light lobe probe brdf preintegrated material shade field kernels ;;
+    lampion) echo base cpu sh sphere light lobe probe brdf preintegrated material shade field transfer kernels ;;
     # The reference judges the others, so it may include only itself.
     ruler) echo ruler ;;
     app/base) echo app/base base cpu ;;
@@ -45,7 +46,7 @@ may_include() {
     app/view) echo app/base app/image app/scene app/render app/render/gl app/render/renderer app/view LIBRARY ;;
     app/command) echo app/base app/image app/scene app/scene/trace app/render app/render/renderer app/truth \
         app/truth/reference app/study app/view app/command shaders LIBRARY ;;
-    esac | sed 's/LIBRARY/base cpu kernels sh sphere light lobe probe brdf preintegrated material shade field lampion/'
+    esac | sed 's/LIBRARY/base cpu kernels sh sphere light lobe probe brdf preintegrated material shade field transfer lampion/'
 }
 
 # modules: prints, for each file of standard input, the file and its module.

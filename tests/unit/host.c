@@ -91,6 +91,25 @@ static lmp_result fit_samples(const lmp_host *host) {
     return lmp_probe_fit(host, 2, 0, &samples, sh);
 }
 
+static lmp_result make_transfer(const lmp_host *host) {
+    enum { COUNT = 600 };
+    static lmp_transfer_surfel surfels[COUNT];
+    static uint32_t hits[COUNT];
+    for (int i = 0; i < COUNT; i++)
+        surfels[i] = (lmp_transfer_surfel) { .normal = { 0, 1, 0 }, .radius = 1 };
+    const lmp_transfer_desc desc = {
+        .surfels = surfels, .surfel_count = COUNT, .hits = hits, .ray_count = 1
+    };
+    const lmp_transfer_lighting dark = { 0 };
+    lmp_transfer *transfer;
+    lmp_result result = lmp_transfer_create(host, &desc, &transfer);
+    assert_int_equal(!transfer, result != LMP_OK);
+    if (result == LMP_OK)
+        result = lmp_transfer_update(host, transfer, NULL, &dark);
+    lmp_transfer_destroy(transfer);
+    return result;
+}
+
 static const struct {
     const char *name;
     attempt make;
@@ -102,6 +121,7 @@ static const struct {
     { "lmp_brdf_encode_merl", write_merl, 40 },
     { "lmp_brdf_encode_rgl", write_rgl, 40 },
     { "lmp_probe_fit", fit_samples, 1 },
+    { "lmp_transfer_update", make_transfer, 1 },
 };
 enum { ATTEMPTS = sizeof attempts / sizeof *attempts };
 

@@ -75,6 +75,9 @@ static lmp_preintegrated_lobe *lobe, *read_lobe;
 static lmp_preintegrated_brdf *preintegrated, *read_preintegrated;
 static lmp_field *field, *read_field;
 static const lmp_field_desc small_field = { .bands = LMP_FIELD_BANDS_MAX, .nodes = { 4, 4, 4 } };
+static lmp_transfer *transfer;
+static const lmp_transfer_surfel surfel = { .normal = { 0, 0, 1 }, .radius = 1 };
+static const uint32_t nothing_hit[COUNT];
 static lmp_probe_constants constants;
 static lmp_probe_convention convention;
 static lmp_parse_error parse_error;
@@ -299,7 +302,14 @@ static void shade_under_a_field(void) {
     X(lmp_field_size, (void)lmp_field_size(field)) \
     X(lmp_field_write, lmp_field_write(field, lmp_field_size(field), bytes)) \
     X(lmp_field_read, MAKE(lmp_field_destroy, read_field, lmp_field_read(NULL, bytes, lmp_field_size(field), NULL, &read_field))) \
-    X(lmp_field_destroy, lmp_field_destroy(read_field), read_field = NULL)
+    X(lmp_field_destroy, lmp_field_destroy(read_field), read_field = NULL) \
+    X(lmp_transfer_create, MAKE(lmp_transfer_destroy, transfer, lmp_transfer_create(NULL, &(lmp_transfer_desc) { .surfels = &surfel, .surfel_count = 1, .hits = nothing_hit, .ray_count = COUNT, .links = nothing_hit, .link_count = 1, .probe_directions = vectors, .probe_hits = nothing_hit, .probe_count = 1, .probe_ray_count = COUNT, .bands = LMP_TRANSFER_BANDS_MAX }, &transfer))) \
+    X(lmp_transfer_describe, (void)lmp_transfer_describe(transfer)) \
+    X(lmp_transfer_update, (void)lmp_transfer_update(NULL, transfer, NULL, &(lmp_transfer_lighting) { 0 })) \
+    X(lmp_transfer_irradiance, (void)lmp_transfer_irradiance(transfer, 0, at, up)) \
+    X(lmp_transfer_copy_irradiance_n, lmp_transfer_copy_irradiance_n(transfer, 0, 1, lmp_rgb_array_of((lmp_rgb *)(void *)rgb))) \
+    X(lmp_transfer_eval_probe_n, LAYOUTS(lmp_transfer_eval_probe_n(transfer, 0, 1, (lmp_sh_array) { out, 0, layout }))) \
+    X(lmp_transfer_destroy, lmp_transfer_destroy(transfer), transfer = NULL)
 /* clang-format on */
 
 #define DEFINE(name, ...)                                                                          \
