@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RAYS_OF_PNG = 8, RAYS_MAX = 256 }; /* as in render */
+enum { RAYS_OF_PNG = 8, RAYS_MAX = 256 /* as in render */, BOUNCES_MAX = 1000 };
 
 typedef struct reference_arguments {
     const char *output;
@@ -189,6 +189,9 @@ static int execute(const cli_command *command, reference_arguments *a, int count
         return cli_usage(command, "expected one scene");
     if (!a->output)
         return cli_usage_output(command, "FILE");
+    if (a->settings.bounces > 0 && a->bands)
+        return cli_usage(command, "--bounces needs whole lobes: a series of --bands cannot be "
+                                  "sampled");
     if (a->shard_given &&
         (image_format_of(a->output) != IMAGE_EXR || a->bands || a->error > 0 || a->rays > 1))
         return cli_usage(command, "--shard writes .exr, of whole lobes, a fixed number of samples "
@@ -234,6 +237,9 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "noise-seed", 0, CLI_SEED, &a.settings.seed, "SEED",
           "seed of the noise: the same seed gives the same image", 0, 0, NULL, NULL },
         SHADOW_SWITCH_ROWS(a.shadow, SHADOW_SUITS),
+        { "bounces", 0, CLI_INT, &a.settings.bounces, "N",
+          "how often surfaces reflect light on to other surfaces; 0 means direct light alone", 0,
+          BOUNCES_MAX, NULL, NULL },
         { "bands", 'n', CLI_INT, &a.bands, "N",
           "truncate the lobes to N bands, as render does; 0 means whole lobes", 0, LMP_BANDS_MAX,
           NULL, NULL },

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* reference.h - ground truth: direct lighting by lights of every kind, computed by Monte Carlo
- * integration in double precision.
+/* reference.h - ground truth: the light of lights of every kind, direct and after bounces, computed
+ * by Monte Carlo integration in double precision.
  *
  * It judges the program, so it uses no kernel, shading method, light or table of the library: from
  * <lampion/…> it takes only types, and lmp_brdf_eval_double for source BRDFs. */
@@ -22,6 +22,8 @@ typedef struct reference_settings {
     uint64_t seed; /* of the noise: a seed gives the same bits for any number of threads */
     int threads;   /* 0 means all cores */
     bool shadows;  /* whether triangles block light */
+    int bounces;   /* how often light is reflected on its way to the seen surface; not with a band
+                    * limit */
     const environment *environment;  /* NULL: none */
     reference_band_limit band_limit; /* band limit of the BRDF, as in render; zero: none */
     const reference_material_source *materials; /* one per scene material, to replace it; or NULL */

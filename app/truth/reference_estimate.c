@@ -131,11 +131,15 @@ static double reflect(const plan *p, reference_vec w, double reflected[3]) {
     return density;
 }
 
+reference_vec reference_ray_origin(const reference_surface *surface, reference_vec w) {
+    const bool behind = surface->translucent && reference_dot(surface->behind[0], w) > 0;
+    return behind ? surface->behind[1] : surface->ray_origin;
+}
+
 static double free_path(const reference_estimator *estimator, const reference_surface *surface,
                         reference_vec w) {
-    const bool behind = surface->translucent && reference_dot(surface->behind[0], w) > 0;
-    const reference_vec origin = behind ? surface->behind[1] : surface->ray_origin;
-    return estimator->visibility ? estimator->visibility(origin, w, estimator->visibility_user)
+    return estimator->visibility ? estimator->visibility(reference_ray_origin(surface, w), w,
+                                                         estimator->visibility_user)
                                  : (double)INFINITY;
 }
 
@@ -259,6 +263,13 @@ static int find_candidate(const plan *p, double u) {
     return low;
 }
 
+static reference_vec draw_lobe(const reference_lobe *lobe, double u, double v) {
+    if (lobe->ggx)
+        return reference_ggx_draw(lobe->ggx, u, v);
+    const double cosine = pow(1 - u, 1 / (lobe->exponent + 1));
+    return reference_around(lobe->axis, cosine, sqrt((1 - cosine) * (1 + cosine)), v);
+}
+
 /* Samples a direction by one of the plan's strategies; *sampled is the light that it was sampled
  * for, or -1. */
 static reference_vec draw(const reference_estimator *estimator, const plan *p, const double u[3],
@@ -266,13 +277,8 @@ static reference_vec draw(const reference_estimator *estimator, const plan *p, c
     double way = u[0];
     *sampled = -1;
     for (int k = 0; k < p->surface->lobe_count; k++) {
-        if (way < p->by_lobe[k]) {
-            const reference_lobe *lobe = &p->surface->lobes[k];
-            if (lobe->ggx)
-                return reference_ggx_draw(lobe->ggx, u[1], u[2]);
-            const double cosine = pow(1 - u[1], 1 / (lobe->exponent + 1));
-            return reference_around(lobe->axis, cosine, sqrt((1 - cosine) * (1 + cosine)), u[2]);
-        }
+        if (way < p->by_lobe[k])
+            return draw_lobe(&p->surface->lobes[k], u[1], u[2]);
         way -= p->by_lobe[k];
     }
     if (p->by_environment > 0 && (way < p->by_environment || p->count == 0))
@@ -434,11 +440,17 @@ reference_result reference_estimate(const reference_estimator *estimator,
     plan_samples(estimator, surface, &p);
     for (int c = 0; c < 3; c++)
         result.mean[c] = p.known[c];
-    if (p.count == 0 && !estimator->environment)
+    const bool is_sampled_directly = p.count > 0 || estimator->environment;
+    if (!is_sampled_directly && !estimator->indirect)
         return result;
     for (int n = 0; n < stop->samples;) {
-        double value[3], error = 0, mean = 0;
-        take_sample(estimator, &p, key, stop->first + n++ * step, value);
+        double value[3] = { 0 }, error = 0, mean = 0;
+        const int number = stop->first + n++ * step;
+        if (is_sampled_directly)
+            take_sample(estimator, &p, key, number, value);
+        if (estimator->indirect)
+            estimator->indirect(surface, reference_hash(key, (uint64_t)number), value,
+                                estimator->indirect_user);
         for (int c = 0; c < 3; c++) {
             sum[c] += value[c];
             sum2[c] += value[c] * value[c];
@@ -458,4 +470,27 @@ reference_result reference_estimate(const reference_estimator *estimator,
         result.standard_error[c] = sqrt(variance_of_mean(sum[c], sum2[c], result.samples));
     }
     return result;
+}
+
+/* --- bounces ---------------------------------------------------------------------------------- */
+
+reference_vec reference_scatter(const reference_surface *surface, const double u[3],
+                                double weight[3]) {
+    plan p = { .surface = surface };
+    double total = 0, way = u[0];
+    int chosen = 0;
+    for (int k = 0; k < surface->lobe_count; k++) {
+        const double *lobe = surface->lobes[k].weight;
+        p.by_lobe[k] = lobe[0] + lobe[1] + lobe[2];
+        total += p.by_lobe[k];
+    }
+    for (int k = 0; k < surface->lobe_count; k++)
+        p.by_lobe[k] /= total > 0 ? total : 1;
+    while (chosen < surface->lobe_count - 1 && way >= p.by_lobe[chosen])
+        way -= p.by_lobe[chosen++];
+    const reference_vec w = draw_lobe(&surface->lobes[chosen], u[1], u[2]);
+    const double density = reflect(&p, w, weight);
+    for (int c = 0; c < 3; c++)
+        weight[c] = density > 0 ? weight[c] / density : 0;
+    return w;
 }

@@ -15,6 +15,11 @@ typedef double (*reference_visibility)(reference_vec point, reference_vec direct
 typedef void (*reference_emission)(size_t light, reference_vec point, double radiance[3],
                                    void *user);
 
+/* Adds the light that the surface reflects after other surfaces have, estimated by one sample of
+ * the stream `key`. */
+typedef void (*reference_indirect)(const reference_surface *surface, uint64_t key,
+                                   double radiance[3], void *user);
+
 /* The lights and the environment, as the estimator uses them; one per thread, reused for all
  * pixels. */
 typedef struct reference_estimator {
@@ -26,6 +31,8 @@ typedef struct reference_estimator {
     void *visibility_user;
     reference_emission emission; /* NULL: areas are uniform */
     void *emission_user;
+    reference_indirect indirect; /* NULL: light does not bounce */
+    void *indirect_user;
 } reference_estimator;
 
 /* Prepares an estimator of these lights; returns false if memory ran out. Free with
@@ -53,5 +60,14 @@ typedef struct reference_result {
 reference_result reference_estimate(const reference_estimator *estimator,
                                     const reference_surface *surface, const reference_stop *stop,
                                     uint64_t key);
+
+/* Samples a direction as the surface reflects, from three random numbers; *weight receives what it
+ * reflects from there, times the cosine, divided by the direction's density. The surface must not
+ * be band-limited. */
+reference_vec reference_scatter(const reference_surface *surface, const double u[3],
+                                double weight[3]);
+
+/* Returns where rays from the surface in the direction w start. */
+reference_vec reference_ray_origin(const reference_surface *surface, reference_vec w);
 
 #endif

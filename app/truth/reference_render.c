@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/base/progress.h"
-#include "app/scene/texture_at.h"
 #include "app/truth/reference.h"
-#include "app/truth/reference_estimate.h"
 #include "app/truth/reference_glow.h"
-#include "app/truth/reference_trace.h"
+#include "app/truth/reference_path.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -16,9 +14,9 @@ typedef struct frame {
     const reference_settings *settings;
     const reference_tracer *tracer;
     const reference_environment *environment; /* NULL: none */
-    const reference_sheen_albedos *albedos;   /* if any material has a sheen */
-    reference_vec eye, forward, right, up;    /* right and up reach the image's edges */
-    double parallel;                          /* 1 for parallel rays, 0 for rays from the eye */
+    reference_materials materials;
+    reference_vec eye, forward, right, up; /* right and up reach the image's edges */
+    double parallel;                       /* 1 for parallel rays, 0 for rays from the eye */
     image *radiance, *standard_error;
 } frame;
 
@@ -78,135 +76,12 @@ static const scene_light *seen_light(const frame *f, const pixel_ray *ray, doubl
     return nearest;
 }
 
-static void sample(const frame *f, const scene_texture_use *use, const reference_hit *hit,
-                   double rgba[4]) {
-    texture_at(f->scene, use, hit->uv + 2 * use->set, rgba);
-}
-
-static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
-                                   const scene_texture_use *map, double scale) {
-    double texel[4];
-    if (map->texture < 0)
-        return hit->normal;
-    sample(f, map, hit, texel);
-    const reference_vec bitangent =
-        reference_scale(hit->handedness, reference_cross(hit->normal, hit->tangent));
-    const reference_vec normal =
-        reference_add(reference_scale((2 * texel[0] - 1) * scale, hit->tangent),
-                      reference_add(reference_scale((2 * texel[1] - 1) * scale, bitangent),
-                                    reference_scale(2 * texel[2] - 1, hit->normal)));
-    return reference_normalize(normal);
-}
-
-static reference_dielectric dielectric_of(const frame *f, const reference_hit *hit,
-                                          const scene_material *material) {
-    double weight[4], tint[4];
-    sample(f, &material->specular_map, hit, weight);
-    sample(f, &material->specular_color_map, hit, tint);
-    reference_dielectric d = { .f90 = (double)material->f90 * weight[3] };
-    for (int c = 0; c < 3; c++)
-        d.f0[c] = fmin((double)material->f0[c] * tint[c], 1) * d.f90;
-    return d;
-}
-
 /* The data of one thread. */
 typedef struct worker {
     reference_estimator estimator;
-    reference_tabulated tabulated;
-    reference_ggx ggx, coat;
-    reference_sheen sheen;
+    reference_description seen;
+    reference_path path; /* of the light that bounces */
 } worker;
-
-static void sheen_surface(const frame *f, worker *own, const reference_hit *hit,
-                          reference_vec normal, reference_vec view, reference_surface *surface) {
-    const scene_material *material = &f->scene->materials[hit->material];
-    double tint[4], rough[4], color[3];
-    sample(f, &material->sheen_color_map, hit, tint);
-    sample(f, &material->sheen_roughness_map, hit, rough);
-    for (int c = 0; c < 3; c++)
-        color[c] = tint[c] * (double)material->sheen_color[c];
-    reference_sheen_set(&own->sheen, f->albedos, color,
-                        rough[3] * (double)material->sheen_roughness, normal, view);
-    reference_surface_sheen(surface, &own->sheen);
-}
-
-/* Puts a coat over the surface, which also attenuates its emission. */
-static void coat_surface(const frame *f, worker *own, const reference_hit *hit, reference_vec view,
-                         reference_surface *surface, double emission[3]) {
-    const scene_material *material = &f->scene->materials[hit->material];
-    double weight[4], rough[4];
-    sample(f, &material->coat_map, hit, weight);
-    sample(f, &material->coat_roughness_map, hit, rough);
-    const reference_vec normal =
-        mapped_normal(f, hit, &material->coat_normal_map, (double)material->coat_normal_scale);
-    reference_coat_set(&own->coat, weight[0] * (double)material->coat,
-                       rough[1] * (double)material->coat_roughness, normal, view);
-    reference_surface_coat(surface, &own->coat, normal, view);
-    for (int c = 0; c < 3; c++)
-        emission[c] *= surface->under;
-}
-
-/* Finds the transmitted color, which is taken from the base color except for leaves. */
-static void take_transmission(const frame *f, const reference_hit *hit, double metallic,
-                              double base[3], double through[3]) {
-    const scene_material *material = &f->scene->materials[hit->material];
-    double part[4], color[4];
-    sample(f, &material->transmission_map, hit, part);
-    sample(f, &material->transmission_color_map, hit, color);
-    const double left = (double)material->transmission * part[3] * (1 - metallic);
-    for (int c = 0; c < 3; c++) {
-        if (material->flags & SCENE_LEAF) {
-            through[c] = (double)SCENE_LEAF_TRANSMITS * base[c] * (1 - metallic);
-        } else {
-            through[c] = left * color[c] * (double)material->transmission_color[c];
-            base[c] *= 1 - left;
-        }
-    }
-}
-
-/* Describes the surface, and the light that it emits. */
-static void describe(const frame *f, worker *own, const reference_hit *hit, reference_vec view,
-                     reference_surface *surface, double emission[3]) {
-    const scene_material *material = &f->scene->materials[hit->material];
-    double color[4], rough[4], glow[4], shade[4], base[3], through[3] = { 0 };
-    sample(f, &material->base_color_map, hit, color);
-    sample(f, &material->metallic_roughness_map, hit, rough);
-    sample(f, &material->emission_map, hit, glow);
-    for (int c = 0; c < 3; c++) {
-        base[c] = color[c] * hit->color[c] * (double)material->base_color[c];
-        emission[c] = glow[c] * (double)material->emission[c] *
-                      (material->flags & SCENE_UNLIT ? hit->color[c] : 1);
-    }
-    sample(f, &material->occlusion_map, hit, shade);
-    const reference_vec normal =
-        mapped_normal(f, hit, &material->normal_map, (double)material->normal_scale);
-    const reference_dielectric dielectric = dielectric_of(f, hit, material);
-    const double metallic = rough[2] * (double)material->metallic;
-    if (scene_is_translucent(material))
-        take_transmission(f, hit, metallic, base, through);
-    reference_ggx_set(&own->ggx, base, metallic, rough[1] * (double)material->roughness,
-                      &dielectric, normal, view);
-    surface->position = hit->position;
-    surface->ray_origin = hit->ray_origin;
-    reference_surface_shine(surface, &f->settings->band_limit, &own->ggx, normal, view);
-    const reference_material_source *source =
-        f->settings->materials ? &f->settings->materials[hit->material] : NULL;
-    if (source && (source->brdf || source->coefficients)) {
-        reference_tabulated_orient(&own->tabulated, source, normal, hit->tangent, view);
-        reference_surface_measure(surface, &own->tabulated, normal, view);
-    } else {
-        if (scene_has_sheen(material))
-            sheen_surface(f, own, hit, normal, view, surface);
-        if (material->coat > 0)
-            coat_surface(f, own, hit, view, surface, emission);
-        if (scene_is_translucent(material)) {
-            for (int c = 0; c < 3; c++)
-                through[c] *= surface->under;
-            reference_surface_transmit(surface, through, normal, hit->ray_behind);
-        }
-    }
-    surface->occluded = (double)material->occlusion * (1 - shade[0]);
-}
 
 static void see_backdrop(const frame *f, reference_vec direction, double emission[3]) {
     const environment *e = f->settings->environment;
@@ -229,32 +104,22 @@ typedef struct ray_radiance {
     reference_vec behind; /* where the ray continues */
 } ray_radiance;
 
-static double opacity_of(const frame *f, const reference_hit *hit) {
-    const scene_material *material = &f->scene->materials[hit->material];
-    double texel[4];
-    if (!(material->flags & SCENE_ALPHA_BLEND))
-        return 1;
-    sample(f, &material->base_color_map, hit, texel);
-    return texel[3] * hit->color[3] * (double)material->base_color[3];
-}
-
 static void see_surface(const frame *f, worker *own, const reference_hit *hit,
                         reference_vec direction, uint64_t key, ray_radiance *seen) {
     const reference_settings *const s = f->settings;
     const bool whole = s->shard[1] == 0;
     const reference_stop stop = { reference_samples(s), s->error, whole ? 0 : s->shard[0] - 1,
                                   s->shard[1] };
-    reference_surface surface;
-    double emission[3];
-    describe(f, own, hit, reference_scale(-1, direction), &surface, emission);
-    const reference_result result = reference_estimate(&own->estimator, &surface, &stop, key);
+    const reference_description *d = &own->seen;
+    reference_describe(&f->materials, hit, reference_scale(-1, direction), &own->seen);
+    const reference_result result = reference_estimate(&own->estimator, &d->surface, &stop, key);
     for (int c = 0; c < 3; c++) {
         /* renderers clamp the sum of a ringing series at 0 */
-        const double mean = surface.band_limited && result.mean[c] < 0 ? 0 : result.mean[c];
-        seen->mean[c] = mean + emission[c];
+        const double mean = d->surface.band_limited && result.mean[c] < 0 ? 0 : result.mean[c];
+        seen->mean[c] = mean + d->emission[c];
         seen->standard_error[c] = result.standard_error[c];
     }
-    seen->opacity = opacity_of(f, hit);
+    seen->opacity = reference_opacity(&f->materials, hit);
     seen->behind = hit->behind;
 }
 
@@ -318,27 +183,52 @@ static void trace_pixel(const frame *f, worker *own, int x, int y) {
     }
 }
 
+static bool create_estimator(const frame *f, reference_estimator *estimator) {
+    const bool made = reference_estimator_create(estimator, f->glow.lights, f->glow.count);
+    estimator->environment = f->environment;
+    estimator->emission = reference_glow_emission;
+    estimator->emission_user = (void *)(uintptr_t)&f->glow;
+    if (f->settings->shadows) {
+        estimator->visibility = reference_tracer_free_path;
+        estimator->visibility_user = (void *)(uintptr_t)f->tracer;
+    }
+    return made;
+}
+
+/* Makes the data of a thread; returns false if memory ran out. Free it in any case. */
+static bool create_worker(const frame *f, worker *own) {
+    *own = (worker) {
+        .path = { .materials = &f->materials, .tracer = f->tracer, .bounces = f->settings->bounces }
+    };
+    const bool made = create_estimator(f, &own->estimator) &&
+                      create_estimator(f, &own->path.estimator) &&
+                      reference_description_create(&f->materials, &own->seen) &&
+                      reference_description_create(&f->materials, &own->path.met);
+    if (f->settings->bounces > 0) {
+        own->estimator.indirect = reference_path_sample;
+        own->estimator.indirect_user = &own->path;
+    }
+    return made;
+}
+
+static void free_worker(worker *own) {
+    reference_estimator_free(&own->estimator);
+    reference_estimator_free(&own->path.estimator);
+    reference_description_free(&own->seen);
+    reference_description_free(&own->path.met);
+}
+
 /* Traces rows in parallel; each pixel has its own random stream. */
 static bool trace_rows(const frame *f, int threads) {
     int done = 0;
     bool ok = true;
 #pragma omp parallel num_threads(threads)
     {
-        worker own = { .tabulated = { .coefficients = NULL } };
-        const bool mine =
-            reference_estimator_create(&own.estimator, f->glow.lights, f->glow.count) &&
-            reference_tabulated_create(&own.tabulated, f->settings->materials,
-                                       f->settings->materials ? f->scene->material_count : 0);
+        worker own;
+        const bool mine = create_worker(f, &own);
         if (!mine) {
 #pragma omp atomic write
             ok = false;
-        }
-        own.estimator.environment = f->environment;
-        own.estimator.emission = reference_glow_emission;
-        own.estimator.emission_user = (void *)(uintptr_t)&f->glow;
-        if (f->settings->shadows) {
-            own.estimator.visibility = reference_tracer_free_path;
-            own.estimator.visibility_user = (void *)(uintptr_t)f->tracer;
         }
 #pragma omp for schedule(dynamic)
         for (int y = 0; y < f->settings->height; y++) {
@@ -350,8 +240,7 @@ static bool trace_rows(const frame *f, int threads) {
             if (omp_get_thread_num() == 0)
                 progress_show("tracing", (double)rows / f->settings->height);
         }
-        reference_estimator_free(&own.estimator);
-        reference_tabulated_free(&own.tabulated);
+        free_worker(&own);
     }
     progress_end();
     return ok;
@@ -390,7 +279,11 @@ bool reference_render(const scene *world, const reference_settings *settings, im
     if (ok) {
         f.tracer = tracer;
         f.environment = reference_environment_shines(&around) ? &around : NULL;
-        f.albedos = prepare_sheen(world, &albedos) ? &albedos : NULL;
+        f.materials =
+            (reference_materials) { .scene = world,
+                                    .sources = settings->materials,
+                                    .albedos = prepare_sheen(world, &albedos) ? &albedos : NULL,
+                                    .band_limit = settings->band_limit };
         set_camera(&f);
         ok = trace_rows(&f, settings->threads ? settings->threads : omp_get_num_procs()) ||
              base_fail(error, NULL, "out of memory");

@@ -88,9 +88,9 @@ static trace_hit cast(const reference_tracer *tracer, trace_kind kind, reference
     return trace_nearest(tracer->bvh, kind, from, along);
 }
 
-reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec origin,
-                                   reference_vec direction) {
-    const trace_hit found = cast(tracer, TRACE_CAMERA, origin, direction);
+static reference_hit trace_surface(const reference_tracer *tracer, trace_kind kind,
+                                   reference_vec origin, reference_vec direction) {
+    const trace_hit found = cast(tracer, kind, origin, direction);
     reference_hit hit = { .distance = (double)INFINITY };
     if (found.instance == TRACE_NOTHING)
         return hit;
@@ -100,6 +100,8 @@ reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec
     trace_corners(world, &found, c.vertices, c.weights);
     const reference_vec face = reference_normalize(face_normal(&c));
     const double side = reference_dot(face, direction) > 0 ? -1 : 1;
+    if (side < 0 && !(world->materials[material].flags & SCENE_DOUBLE_SIDED))
+        return hit;
     hit.position = blend(&c, offsetof(scene_vertex, position));
     hit.distance = reference_length(reference_subtract(hit.position, origin));
     const reference_vec normal = blend(&c, offsetof(scene_vertex, normal));
@@ -116,6 +118,16 @@ reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec
     blend_color(&c, &world->materials[material], hit.color);
     hit.material = material;
     return hit;
+}
+
+reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec origin,
+                                   reference_vec direction) {
+    return trace_surface(tracer, TRACE_CAMERA, origin, direction);
+}
+
+reference_hit reference_tracer_meet(const reference_tracer *tracer, reference_vec origin,
+                                    reference_vec direction) {
+    return trace_surface(tracer, TRACE_LIGHT, origin, direction);
 }
 
 double reference_tracer_free_path(reference_vec point, reference_vec direction, void *user) {

@@ -31,6 +31,11 @@ typedef struct reference_hit {
 reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec origin,
                                    reference_vec direction);
 
+/* Traces a ray of bounced light, which the same triangles block as light rays. The back of a
+ * single-sided triangle reflects nothing, so it is no hit. */
+reference_hit reference_tracer_meet(const reference_tracer *tracer, reference_vec origin,
+                                    reference_vec direction);
+
 /* Returns the distance at which a light ray from a ray_origin is blocked by either side of a
  * triangle, except where an alpha mask cuts it out; INFINITY if it is not. `user` is the tracer. */
 double reference_tracer_free_path(reference_vec point, reference_vec direction, void *user);
