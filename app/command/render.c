@@ -231,6 +231,18 @@ static bool cast_shadows(render_job *j, base_error *error) {
     return j->shadow != NULL;
 }
 
+static bool bounce_light(render_job *j, base_error *error) {
+    if (j->options->bounces == 0)
+        return true;
+    const transfer_settings settings = { .bounces = j->options->bounces,
+                                         .shadows = j->shadow != NULL,
+                                         .around = &j->around,
+                                         .before = j->frame.shadow };
+    j->bounces = render_device_transfer(&j->device, &settings, error);
+    j->frame.shadow = transfer_pass(j->bounces);
+    return j->bounces != NULL;
+}
+
 static int default_samples(const render_options *o) {
     return image_format_of(o->output) == IMAGE_EXR ? 1 : 8;
 }
@@ -265,11 +277,12 @@ static bool open_job(const char *name, render_job *j, base_error *error) {
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
     if (j->renderer && !j->moved)
         return base_fail(error, NULL, "out of memory");
-    return j->renderer && cast_shadows(j, error) &&
+    return j->renderer && cast_shadows(j, error) && bounce_light(j, error) &&
            override_prepare(&o->materials, &j->world, &j->frame, j->renderer, &j->materials, error);
 }
 
 static void close_job(render_job *j) {
+    transfer_destroy(j->bounces);
     shadow_destroy(j->shadow);
     renderer_destroy(j->renderer);
     override_free(&j->materials);
@@ -390,6 +403,10 @@ static int run(const cli_command *command, int argc, char **argv) {
           1, SAMPLES_MAX, NULL, &o.samples_given },
         SHADE_FIELD_OPTION_ROWS(o.field),
         SHADOW_OPTION_ROWS(o.shadow),
+        { "bounces", 0, CLI_INT, &o.bounces, "N",
+          "how often surfaces reflect light on to other surfaces, as diffuse ones do; 0 means "
+          "direct light alone",
+          0, TRANSFER_BOUNCES_MAX, NULL, NULL },
         { "stats", 0, CLI_FLAG, &o.stats, NULL,
           "print what was drawn and the time of each pass of a sample, as JSON", 0, 0, NULL, NULL },
         { "repeat", 0, CLI_INT, &o.repeat, "N", "frames whose median --stats takes", 1,

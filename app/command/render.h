@@ -4,6 +4,7 @@
 #define LAMPION_COMMAND_RENDER_H
 
 #include "app/base/cli.h"
+#include "app/render/renderer/bounces.h"
 #include "app/render/renderer/override.h"
 #include "app/render/renderer/renderer.h"
 #include "app/render/renderer/shadows.h"
@@ -22,6 +23,7 @@ typedef struct render_options {
     method_kind method;      /* by the choice and the bands, whatever the lights */
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
+    int bounces;
     bool exposure_given, frames_given, shard_given, background_given, samples_given, stats, compare;
     shadow_options shadow;
     environment_options environment;
@@ -45,6 +47,7 @@ typedef struct render_job {
     lmp_preintegrated_lobe *lobes; /* for methods that read lobes */
     shade_field *field;            /* for methods that read a field */
     shadow *shadow;                /* NULL without shadows */
+    transfer *bounces;             /* NULL without bounces */
     animation *path;               /* of the lights */
     scene_light *moved;
     override_set materials;

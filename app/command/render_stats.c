@@ -111,6 +111,17 @@ static json_t *shadows_to_json(const render_job *j) {
                      "filter_milliseconds", file_json_real(s.filter_milliseconds));
 }
 
+static json_t *bounces_to_json(const render_job *j) {
+    const transfer_statistics s = transfer_describe(j->bounces);
+    return json_pack("{s:i, s:I, s:o, s:I, s:o, s:o, s:o, s:o}", "bounces", j->options->bounces,
+                     "surfels", (json_int_t)s.surfels, "spacing", file_json_float(s.spacing),
+                     "bytes", (json_int_t)s.bytes, "create_milliseconds",
+                     file_json_real(s.create_milliseconds), "light_milliseconds",
+                     file_json_real(s.light_milliseconds), "bounce_milliseconds",
+                     file_json_real(s.bounce_milliseconds), "read_milliseconds",
+                     file_json_real(s.read_milliseconds));
+}
+
 /* Measures the median shading time of frames with resting lights and a moving camera: the field
  * keeps its nodes, and computes only those that come into view. */
 static bool time_rest(render_job *j, double *milliseconds, base_error *error) {
@@ -176,5 +187,7 @@ bool render_print_stats(render_job *j, base_error *error) {
     }
     if (j->shadow)
         stats = file_json_with(stats, "shadows", shadows_to_json(j));
+    if (j->bounces)
+        stats = file_json_with(stats, "bounces", bounces_to_json(j));
     return file_json_print(stats, NULL, error);
 }

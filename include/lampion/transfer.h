@@ -123,6 +123,9 @@ LMP_EXPERIMENTAL LMP_API lmp_result lmp_transfer_update(const lmp_host *host,
                                                         const lmp_transfer_settings *settings,
                                                         const lmp_transfer_lighting *lighting);
 
+/* Forgets all light: the next update begins in darkness, as the first one does. */
+LMP_EXPERIMENTAL LMP_API void lmp_transfer_reset(lmp_transfer *transfer);
+
 /* --- reading ---------------------------------------------------------------------------------- */
 
 /* Returns the indirect irradiance, W·m⁻², at a point of a surface: a mean of E over the surfel

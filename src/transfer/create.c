@@ -142,11 +142,19 @@ static float contraction_of(const lmp_transfer *transfer) {
     return largest;
 }
 
-static void fill(const lmp_transfer_desc *desc, lmp_transfer *transfer) {
-    const lmp_transfer_info *info = &transfer->info;
+void lmp_transfer_reset(lmp_transfer *transfer) {
+    lmp_transfer_info *info = &transfer->info;
     const size_t sources = info->surfel_count + info->sky_count;
     memset(transfer->indirect, 0, info->surfel_count * sizeof *transfer->indirect);
     memset(transfer->radiosity, 0, (sources + 1) * sizeof *transfer->radiosity);
+    transfer->next = 0;
+    info->iterations = 0;
+    info->remainder = INFINITY;
+}
+
+static void fill(const lmp_transfer_desc *desc, lmp_transfer *transfer) {
+    const lmp_transfer_info *info = &transfer->info;
+    const size_t sources = info->surfel_count + info->sky_count;
     copy(transfer->surfels, desc->surfels, info->surfel_count * sizeof *desc->surfels);
     copy(transfer->links, desc->links, info->surfel_count * info->link_count * sizeof *desc->links);
     copy_hits(desc->hits, info->surfel_count * info->ray_count, (uint32_t)sources, transfer->hits);
@@ -154,6 +162,7 @@ static void fill(const lmp_transfer_desc *desc, lmp_transfer *transfer) {
               transfer->probe_hits);
     fill_basis(desc->probe_directions, transfer);
     transfer->contraction = contraction_of(transfer);
+    lmp_transfer_reset(transfer);
 }
 
 lmp_result lmp_transfer_create(const lmp_host *host, const lmp_transfer_desc *desc,
@@ -171,8 +180,7 @@ lmp_result lmp_transfer_create(const lmp_host *host, const lmp_transfer_desc *de
                                     .link_count = resolved.link_count,
                                     .probe_count = resolved.probe_count,
                                     .probe_ray_count = direction_count(&resolved),
-                                    .bands = resolved.bands,
-                                    .remainder = INFINITY } };
+                                    .bands = resolved.bands } };
     const uint64_t bytes = lay_out(&plan, NULL) + LINE;
     if (bytes > SIZE_MAX)
         return LMP_ERROR_MEMORY;

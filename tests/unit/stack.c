@@ -306,6 +306,7 @@ static void shade_under_a_field(void) {
     X(lmp_transfer_create, MAKE(lmp_transfer_destroy, transfer, lmp_transfer_create(NULL, &(lmp_transfer_desc) { .surfels = &surfel, .surfel_count = 1, .hits = nothing_hit, .ray_count = COUNT, .links = nothing_hit, .link_count = 1, .probe_directions = vectors, .probe_hits = nothing_hit, .probe_count = 1, .probe_ray_count = COUNT, .bands = LMP_TRANSFER_BANDS_MAX }, &transfer))) \
     X(lmp_transfer_describe, (void)lmp_transfer_describe(transfer)) \
     X(lmp_transfer_update, (void)lmp_transfer_update(NULL, transfer, NULL, &(lmp_transfer_lighting) { 0 })) \
+    X(lmp_transfer_reset, lmp_transfer_reset(transfer)) \
     X(lmp_transfer_irradiance, (void)lmp_transfer_irradiance(transfer, 0, at, up)) \
     X(lmp_transfer_copy_irradiance_n, lmp_transfer_copy_irradiance_n(transfer, 0, 1, lmp_rgb_array_of((lmp_rgb *)(void *)rgb))) \
     X(lmp_transfer_eval_probe_n, LAYOUTS(lmp_transfer_eval_probe_n(transfer, 0, 1, (lmp_sh_array) { out, 0, layout }))) \

@@ -218,6 +218,15 @@ static void updates_continue_where_the_last_one_ended(void **test) {
     transfer_iterate(transfer, 4, &lighting);
     transfer_copy(transfer, SURFELS, twice);
     assert_memory_equal(once, twice, sizeof once);
+    lmp_transfer_reset(transfer);
+    transfer_copy(transfer, SURFELS, twice);
+    for (size_t i = 0; i < SURFELS; i++)
+        assert_true(twice[i].r == 0 && twice[i].g == 0 && twice[i].b == 0);
+    assert_int_equal(lmp_transfer_describe(transfer).iterations, 0);
+    assert_true(isinf(lmp_transfer_describe(transfer).remainder));
+    transfer_iterate(transfer, 7, &lighting);
+    transfer_copy(transfer, SURFELS, twice);
+    assert_memory_equal(once, twice, sizeof once);
     lmp_transfer_destroy(transfer);
 }
 

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* cells.h - surfels by their positions: a hash of cubic cells. */
+#ifndef LAMPION_RENDER_TRANSFER_CELLS_H
+#define LAMPION_RENDER_TRANSFER_CELLS_H
+
+#include "app/render/transfer/surfels.h"
+
+typedef struct transfer_cells {
+    const transfer_surfels *surfels;
+    float size;        /* the edge of a cell */
+    uint32_t mask;     /* of hashes */
+    uint32_t *begin;   /* per hash the first of its entries, and their end */
+    uint32_t *entries; /* surfels */
+} transfer_cells;
+
+/* Sorts surfels, which must outlive the cells, for searches up to TRANSFER_NEAR spacings away.
+ * Returns false if memory ran out; free the cells in any case. */
+#define TRANSFER_NEAR 2.2f
+bool transfer_cells_create(const transfer_surfels *surfels, transfer_cells *cells);
+void transfer_cells_free(transfer_cells *cells);
+
+/* Finds the surfels within TRANSFER_NEAR spacings of a point whose normals have at least `cosine`
+ * with the normal given: up to `capacity` of them, the nearest first, where distances off the
+ * surface count more. Returns how many. */
+size_t transfer_cells_find(const transfer_cells *cells, lmp_vec3 point, lmp_vec3 normal,
+                           float cosine, size_t capacity, uint32_t *found);
+
+#endif

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/transfer/lists.h"
+
+#include "app/scene/instance.h"
+#include "app/scene/vector.h"
+
+#include <stdlib.h>
+
+/* How much the normals of a surface may differ where a ray hits it, and where links are read. */
+static const float hit_cosine = 0.3f, link_cosine = 0.8f;
+
+/* Rays along a surface start and end this many spacings off it, because it may be curved. */
+static const float off_surface = 0.05f;
+
+/* --- rays ------------------------------------------------------------------------------------- */
+
+static trace_hit cast(const transfer_view *view, lmp_vec3 from, lmp_vec3 direction) {
+    const float origin[3] = { from.x, from.y, from.z };
+    const float along[3] = { direction.x, direction.y, direction.z };
+    return trace_nearest(view->bvh, TRACE_LIGHT, origin, along);
+}
+
+/* Returns direction k from a surfel: distributed as the cosine, by Roberts' sequence R2, which is
+ * shifted for each surfel. */
+static lmp_vec3 direction_of(const lmp_transfer_surfel *surfel, size_t index, size_t k) {
+    const double x = 0.7548776662466927 * (double)k + 0.6180339887498949 * (double)index;
+    const double y = 0.5698402909980532 * (double)k + 0.4142135623730950 * (double)index;
+    const float u = (float)(x - floor(x));
+    const double azimuth = 2 * M_PI * y;
+    const lmp_vec3 a = vec_across(surfel->normal), b = vec_cross(surfel->normal, a);
+    const lmp_vec3 flat =
+        vec_add(vec_scale(a, (float)cos(azimuth)), vec_scale(b, (float)sin(azimuth)));
+    return vec_add(vec_scale(flat, sqrtf(u)), vec_scale(surfel->normal, sqrtf(1 - u)));
+}
+
+/* Whether nothing stands between a point of a surface and a surfel. */
+static bool sees(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal, uint32_t surfel) {
+    const lmp_transfer_surfel *to = &view->cells->surfels->at[surfel];
+    const float off = off_surface * view->cells->surfels->spacing;
+    const lmp_vec3 from = vec_add(point, vec_scale(normal, off));
+    const lmp_vec3 way = vec_sub(vec_add(to->position, vec_scale(to->normal, off)), from);
+    return cast(view, from, way).distance >= 1;
+}
+
+uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal) {
+    enum { TRIED = 4 };
+    uint32_t found[TRIED];
+    const size_t count = transfer_cells_find(view->cells, point, normal, hit_cosine, TRIED, found);
+    for (size_t i = 0; i < count; i++)
+        if (sees(view, point, normal, found[i]))
+            return found[i];
+    return count > 0 ? found[0] : LMP_TRANSFER_NONE;
+}
+
+/* Returns the surfel where a ray ends; none where it sees the back of a single-sided triangle. */
+static uint32_t source_along(const transfer_view *view, lmp_vec3 from, lmp_vec3 direction) {
+    const trace_hit hit = cast(view, from, direction);
+    float corners[3][3];
+    lmp_vec3 normal;
+    if (hit.instance == TRACE_NOTHING)
+        return LMP_TRANSFER_NONE;
+    const uint32_t material = scene_instance_material(view->scene, hit.instance);
+    scene_triangle_positions(view->scene, hit.instance, hit.triangle, corners);
+    transfer_face(corners, &normal);
+    if (vec_dot(normal, direction) > 0) {
+        if (!(view->scene->materials[material].flags & SCENE_DOUBLE_SIDED))
+            return LMP_TRANSFER_NONE;
+        normal = vec_scale(normal, -1);
+    }
+    const lmp_vec3 at = vec_add(from, vec_scale(direction, hit.distance));
+    return transfer_nearest(view, at, normal);
+}
+
+/* --- lists ------------------------------------------------------------------------------------ */
+
+static void fill_hits(const transfer_view *view, size_t index, float lift, uint32_t *hits) {
+    const lmp_transfer_surfel *surfel = &view->cells->surfels->at[index];
+    const lmp_vec3 from = vec_add(surfel->position, vec_scale(surfel->normal, lift));
+    for (size_t k = 0; k < TRANSFER_RAYS; k++)
+        hits[k] = source_along(view, from, direction_of(surfel, index, k));
+}
+
+static void fill_links(const transfer_view *view, size_t index, uint32_t *links) {
+    const lmp_transfer_surfel *surfel = &view->cells->surfels->at[index];
+    uint32_t found[TRANSFER_LINKS + 1];
+    const size_t near = transfer_cells_find(view->cells, surfel->position, surfel->normal,
+                                            link_cosine, TRANSFER_LINKS + 1, found);
+    size_t count = 0;
+    for (size_t i = 0; i < near && count < TRANSFER_LINKS; i++)
+        if (found[i] != index && sees(view, surfel->position, surfel->normal, found[i]))
+            links[count++] = found[i];
+    while (count < TRANSFER_LINKS)
+        links[count++] = LMP_TRANSFER_NONE;
+}
+
+bool transfer_lists_create(const transfer_view *view, transfer_lists *lists) {
+    const ptrdiff_t count = (ptrdiff_t)view->cells->surfels->count;
+    const float lift = (float)trace_lift(view->scene);
+    lists->hits = malloc(((size_t)count * TRANSFER_RAYS + 1) * sizeof *lists->hits);
+    lists->links = malloc(((size_t)count * TRANSFER_LINKS + 1) * sizeof *lists->links);
+    if (!lists->hits || !lists->links)
+        return false;
+#pragma omp parallel for schedule(dynamic, 64)
+    for (ptrdiff_t i = 0; i < count; i++) {
+        fill_hits(view, (size_t)i, lift, lists->hits + i * TRANSFER_RAYS);
+        fill_links(view, (size_t)i, lists->links + i * TRANSFER_LINKS);
+    }
+    return true;
+}
+
+void transfer_lists_free(transfer_lists *lists) {
+    free(lists->hits);
+    free(lists->links);
+    *lists = (transfer_lists) { NULL, NULL };
+}

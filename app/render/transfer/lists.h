@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* lists.h - what rays between surfels find, once. */
+#ifndef LAMPION_RENDER_TRANSFER_LISTS_H
+#define LAMPION_RENDER_TRANSFER_LISTS_H
+
+#include "app/render/transfer/cells.h"
+#include "app/scene/trace/trace.h"
+
+/* What the rays of a scene are cast by. */
+typedef struct transfer_view {
+    const scene *scene;
+    const trace_bvh *bvh;
+    const transfer_cells *cells;
+} transfer_view;
+
+/* The hits and links of lmp_transfer_desc. */
+enum { TRANSFER_RAYS = 128, TRANSFER_LINKS = 24 };
+typedef struct transfer_lists {
+    uint32_t *hits, *links;
+} transfer_lists;
+
+/* Casts all rays, on all cores. Returns false if memory ran out; free the lists in any case. */
+bool transfer_lists_create(const transfer_view *view, transfer_lists *lists);
+void transfer_lists_free(transfer_lists *lists);
+
+/* Returns the nearest surfel that is seen from a point of a surface, or else the nearest;
+ * LMP_TRANSFER_NONE if there is none. */
+uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal);
+
+#endif

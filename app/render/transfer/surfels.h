@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* surfels.h - samples of a scene's surfaces, spread evenly over their area. */
+#ifndef LAMPION_RENDER_TRANSFER_SURFELS_H
+#define LAMPION_RENDER_TRANSFER_SURFELS_H
+
+#include "app/scene/scene.h"
+
+#include <lampion/transfer.h>
+
+typedef struct transfer_surfels {
+    lmp_transfer_surfel *at;
+    size_t count;
+    float spacing; /* the root of the area that each stands for */
+} transfer_surfels;
+
+/* Makes the surfels of a scene: about a sixtieth of its extent apart, fewer where this would be
+ * more than TRANSFER_SURFELS_MAX; double-sided surfaces have them on both sides. Without a surface
+ * there is none. Returns false if memory ran out; free surfels->at in any case. */
+#define TRANSFER_SURFELS_MAX 40000
+bool transfer_surfels_make(const scene *world, transfer_surfels *surfels);
+
+/* Finds the unit normal of a triangle's face; returns its area. */
+float transfer_face(float corners[3][3], lmp_vec3 *normal);
+
+#endif

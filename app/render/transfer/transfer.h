@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/* transfer.h - light that bounces, by the library's transfer: the scene's surfels and rays are made
+ * once, and every surface reads the surfels near it (docs/transfer.md). Named after the library's
+ * part that it fills. */
+#ifndef LAMPION_RENDER_TRANSFER_TRANSFER_H
+#define LAMPION_RENDER_TRANSFER_TRANSFER_H
+
+#include "app/render/surfaces.h"
+#include "app/scene/trace/trace.h"
+
+typedef struct transfer transfer;
+
+/* How light bounces. */
+typedef struct transfer_settings {
+    int bounces;               /* 1 … TRANSFER_BOUNCES_MAX */
+    bool shadows;              /* whether surfaces hide lights from surfels */
+    const environment *around; /* NULL: none; must outlive the transfer */
+    render_pass before;        /* the pass of shadows, which runs first; zero: none */
+} transfer_settings;
+#define TRANSFER_BOUNCES_MAX 1000
+
+/* Makes a scene's surfels and casts their rays; the scene and its tree must outlive the result.
+ * Returns NULL on failure. */
+transfer *transfer_create(const scene *world, const trace_bvh *bvh,
+                          const transfer_settings *settings, base_error *error);
+void transfer_destroy(transfer *transfer);
+
+/* Returns the pass that adds bounced light to a frame, after the pass of its settings. */
+render_pass transfer_pass(transfer *transfer);
+
+typedef struct transfer_statistics {
+    size_t surfels, bytes;      /* of the library's transfer */
+    float spacing;              /* of the surfels */
+    double create_milliseconds; /* surfels and their rays, once */
+    double light_milliseconds;  /* direct light of surfels, where lights have moved */
+    double bounce_milliseconds; /* all bounces */
+    double read_milliseconds;   /* of the last sample's surfaces */
+} transfer_statistics;
+transfer_statistics transfer_describe(const transfer *transfer);
+
+#endif

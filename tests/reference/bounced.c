@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT */
+/* Light that bounces in images, by the library's transfer, in closed rooms where what every bounce
+ * adds is known. */
+#include "app/render/renderer/bounces.h"
+#include "app/render/renderer/shadows.h"
+#include "tests/reference/cube.h"
+
+#include <math.h>
+
+/* Draws the room by the CPU; its transfer has the light of the frame. */
+static void draw(const room *r, int bounces, bool shadows, image *pixels) {
+    const shadow_settings rays = { .rays = 64, .raw = true };
+    base_error error = { "" };
+    render_device device;
+    render_frame frame = { .width = SIDE,
+                           .height = SIDE,
+                           .camera = r->settings.camera,
+                           .method = METHOD_ZONAL,
+                           .bands = 4,
+                           .lights = r->world.lights,
+                           .light_count = r->world.light_count };
+    shadow *caster = NULL;
+    assert_true(render_device_open(DEVICE_CPU, NULL, &r->world, &device, &error));
+    any_renderer *renderer = renderer_create(&device, &error);
+    assert_non_null(renderer);
+    if (shadows) {
+        caster = render_device_shadow(&device, NULL, &rays, &error);
+        assert_non_null(caster);
+        frame.shadow = shadow_pass(caster);
+    }
+    const transfer_settings settings = { .bounces = bounces,
+                                         .shadows = shadows,
+                                         .before = frame.shadow };
+    transfer *bounced = render_device_transfer(&device, &settings, &error);
+    assert_non_null(bounced);
+    frame.shadow = transfer_pass(bounced);
+    assert_true(renderer_draw(renderer, &frame, NULL, &error));
+    assert_true(renderer_read_image(renderer, pixels, &error));
+    transfer_destroy(bounced);
+    shadow_destroy(caster);
+    renderer_destroy(renderer);
+    render_device_close(&device);
+}
+
+static double mean_of(const image *pixels) {
+    double mean = 0;
+    for (int i = 0; i < PIXELS; i++)
+        mean += (double)pixels->rgb[3 * i + 1] / PIXELS;
+    return mean;
+}
+
+/* Under light of radiance 1 from everywhere, walls of albedo rho show rho + rho² + …, whatever the
+ * rays have found: a term more for each bounce. */
+static void even_light_keeps_the_geometric_series(void **state) {
+    (void)state;
+    const double albedos[] = { 0.5, 0.8 };
+    const int numbers[] = { 1, 8 };
+    for (int k = 0; k < 2; k++) {
+        room r;
+        image pixels;
+        const double rho = albedos[k];
+        const double expected = rho * (1 - pow(rho, numbers[k] + 1)) / (1 - rho);
+        open_room(cube_obj, "", rho, &r);
+        light_evenly(&r);
+        draw(&r, numbers[k], false, &pixels);
+        for (int p = 0; p < 3 * PIXELS; p++)
+            CHECK_WITHIN(fabs((double)pixels.rgb[p] / expected - 1), 1e-4);
+        image_free(&pixels);
+        close_room(&r);
+    }
+}
+
+static void set_lamp(room *r, float height, scene_light *lamp) {
+    *lamp = (scene_light) {
+        .emitter = { .position = { 0, height, 0 }, .radius = 0.2f, .radiance = { 2, 2, 2 } },
+        .hidden = 1
+    };
+    light_by(r, lamp);
+}
+
+/* A lamp in the middle of a cube lights its walls by its power divided by their area, and each
+ * bounce adds as much of it as is reflected. */
+static void the_power_of_a_lamp_is_kept(void **state) {
+    (void)state;
+    const double rho = 0.6, power = 4 * M_PI * M_PI * 0.2 * 0.2 * 2;
+    room r;
+    scene_light lamp;
+    open_room(cube_obj, "", rho, &r);
+    set_lamp(&r, 0, &lamp);
+    r.settings.camera = (scene_camera) {
+        .eye = { 0, 0, 0.5f }, .target = { 0, 0, -1 }, .up = { 0, 1, 0 }, .height = 2
+    };
+    image pixels;
+    const double expected = power / 24 * rho / M_PI * (1 - pow(rho, 9)) / (1 - rho);
+    draw(&r, 8, true, &pixels);
+    print_message("%.5f, expected %.5f\n", mean_of(&pixels), expected);
+    CHECK_WITHIN(fabs(mean_of(&pixels) / expected - 1), 0.01);
+    image_free(&pixels);
+    close_room(&r);
+}
+
+/* The walls are infinitely thin. */
+static void nothing_leaks_into_a_closed_room(void **state) {
+    (void)state;
+    room r;
+    scene_light lamp;
+    image pixels;
+    open_room(cube_obj, "", 0.8, &r);
+    set_lamp(&r, 3, &lamp);
+    draw(&r, 8, true, &pixels);
+    for (int i = 0; i < 3 * PIXELS; i++)
+        assert_true(pixels.rgb[i] == 0);
+    image_free(&pixels);
+    close_room(&r);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(even_light_keeps_the_geometric_series),
+        cmocka_unit_test(the_power_of_a_lamp_is_kept),
+        cmocka_unit_test(nothing_leaks_into_a_closed_room),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
