@@ -4,6 +4,8 @@
 #include "src/sh/layout.h"
 #include "src/transfer/transfer.h"
 
+#include <string.h>
+
 /* The weight that the nearest surfel has at least. */
 #define WEIGHT_MIN 1e-6f
 
@@ -50,8 +52,7 @@ void lmp_transfer_copy_irradiance_n(const lmp_transfer *transfer, size_t first, 
 static void sum_probe(const lmp_transfer *transfer, size_t probe, float *sums) {
     const size_t row = LMP_SH_COUNT(transfer->info.bands), rays = transfer->info.probe_ray_count;
     const uint32_t *hits = transfer->probe_hits + probe * rays;
-    for (size_t i = 0; i < 3 * row; i++)
-        sums[i] = 0;
+    memset(sums, 0, 3 * row * sizeof *sums);
     for (size_t k = 0; k < rays; k++) {
         const transfer_color radiosity = transfer->radiosity[hits[k]];
         const float *y = transfer->basis + k * row;

@@ -19,6 +19,7 @@ outputs() {
     set -- "$@" --bands 6
     "$PROGRAM" render builtin:ball --device cpu --method zonal --size 96x54 -o "$folder/zonal.exr" $batches "$@"
     "$PROGRAM" render builtin:atrium --device cpu --size 96x54 --samples 2 -o "$folder/image.png" $batches "$@"
+    "$PROGRAM" render builtin:ball --device cpu --size 48x27 --bounces 2 -o "$folder/bounces.exr" $batches "$@"
     "$PROGRAM" reference builtin:ball --size 48x27 --spp 4 --threads "${OMP_NUM_THREADS:-0}" \
         -o "$folder/reference.exr" "$@"
     "$PROGRAM" brdf bake sgd:white-fabric --views 8 -o "$folder/table.lmpt" "$@"
@@ -40,7 +41,7 @@ compare() {
 }
 
 outputs first >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
-[ "$(ls "$WORK/first" | wc -l)" = 7 ] || fail "not every command wrote its file"
+[ "$(ls "$WORK/first" | wc -l)" = 8 ] || fail "not every command wrote its file"
 same again
 for threads in 1 2 7; do
     export OMP_NUM_THREADS=$threads LP_NUM_THREADS=$threads
