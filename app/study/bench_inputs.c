@@ -30,9 +30,8 @@ static lmp_vec3 scaled(lmp_vec3 v, float factor) {
     return (lmp_vec3) { factor * v.x, factor * v.y, factor * v.z };
 }
 
-/* Makes rectangles around the spheres' positions, facing the points, as wide as they are far; on
- * the same lines forty times as far; and through the points' floor, whose surfaces look up and
- * aside. */
+/* Makes rectangles around the spheres' positions that face the points; the same forty times as far;
+ * through the points' floor, whose surfaces look up and aside; and disks. */
 static void areas_create(bench_inputs *in) {
     for (int i = 0; i < BENCH_LIGHTS; i++) {
         const lmp_vec3 at = in->lights[i].position;
@@ -40,7 +39,7 @@ static void areas_create(bench_inputs *in) {
                     far = sqrtf(at.x * at.x + at.y * at.y + at.z * at.z);
         const lmp_vec3 x = { at.y / flat, -at.x / flat, 0 };
         const lmp_vec3 y = { x.y * at.z / far, -x.x * at.z / far, (x.x * at.y - x.y * at.x) / far };
-        const float size = 0.5f * far;
+        const float size = 0.2f * far;
         const lmp_light light = { .kind = LMP_LIGHT_RECTANGLE,
                                   .position = at,
                                   .half = { scaled(x, size), scaled(y, size) },
@@ -49,6 +48,10 @@ static void areas_create(bench_inputs *in) {
         in->areas.large[i] = in->areas.small[i] = in->areas.cut[i] = light;
         in->areas.small[i].position = scaled(at, 40);
         in->areas.cut[i].position = (lmp_vec3) { at.x, at.y, 0 };
+        in->areas.disk[i] = light;
+        in->areas.disk[i].kind = LMP_LIGHT_DISK;
+        in->areas.disk[i].direction = scaled(at, -1 / far);
+        in->areas.disk[i].radius = size;
     }
 }
 

@@ -21,9 +21,10 @@ enum {
     BENCH_OUTPUT_FLOATS = 6144
 };
 
-/* Rectangles that are 53 degrees wide, that look small, and that the horizon cuts. */
+/* Rectangles that are 23 degrees wide, that look small, and that the horizon cuts; and disks that
+ * are as wide. */
 typedef struct bench_areas {
-    lmp_light large[BENCH_LIGHTS], small[BENCH_LIGHTS], cut[BENCH_LIGHTS];
+    lmp_light large[BENCH_LIGHTS], small[BENCH_LIGHTS], cut[BENCH_LIGHTS], disk[BENCH_LIGHTS];
 } bench_areas;
 
 /* The inputs and outputs of a kernel. */
@@ -68,7 +69,7 @@ typedef struct bench_kernel {
     bool large;    /* does little but store: measured on large outputs, too */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 30 };
+enum { BENCH_KERNELS = 31 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
 /* --- bench_paper.c: elements of the same work by the paper's formulas, one at a time ---------- */

@@ -33,7 +33,7 @@
 #include "src/kernels/reconstruct_tmpl.h"
 #include "src/kernels/refine_tmpl.h"
 #include "src/kernels/rows_tmpl.h"
-#include "src/kernels/shade_polygons_tmpl.h"
+#include "src/kernels/shade_flat_tmpl.h"
 #include "src/kernels/shade_zonal_tmpl.h"
 #include "src/kernels/vectors_tmpl.h"
 
@@ -82,6 +82,7 @@ const lmpi_kernels LMPI_KERNELS = {
     .lobe.response = kernel_lobe,
     .shade.zonal = kernel_shade_zonal,
     .shade.polygons = kernel_shade_polygons,
+    .shade.disk = kernel_shade_disk,
     .shade.field = kernel_shade_field,
     .shade.preintegrated_lobe = kernel_shade_preintegrated_lobe,
     .shade.preintegrated_brdf = kernel_shade_preintegrated_brdf,

@@ -15,9 +15,8 @@
 #define LMPI_DIRAC_DISTANCE_MIN 1e-6f
 
 /* The form of a light, once its kind has been examined (src/light/packed.h): kernels, shading,
- * fields, shadows and shaders know only these forms. Of areas, kernels take those with corners, as
- * polygons (polygon.h), and src/light/seen.h sums the others one by one, in the same way for every
- * instruction set. */
+ * fields, shadows and shaders know only these forms. Of areas, kernels take the flat ones (flat.h),
+ * and src/light/seen.h sums the others one by one, in the same way for every instruction set. */
 typedef enum lmpi_light_form {
     LMPI_FORM_SPHERE, /* a sphere around a position */
     LMPI_FORM_DIRAC,  /* a single direction, to a position or fixed */

@@ -6,11 +6,7 @@
 #define LAMPION_KERNELS_POLYGON_TMPL_H
 
 #include "src/base/unroll.h"
-#include "src/kernels/lanes.h"
-#include "src/kernels/polygon.h"
-
-/* The fewest bands; fewer are padded by bands of weight 0. */
-enum { POLYGON_BANDS_MIN = 2 };
+#include "src/kernels/flat_tmpl.h"
 
 /* --- angles ----------------------------------------------------------------------------------- */
 
@@ -166,44 +162,8 @@ LMPI_INLINE vd polygon_solid_angle(int count, const polygon_seen *seen, vd side)
     return 2.0 * side * polygon_argument(re, im);
 }
 
-/* Numbers per band that all points share. The recurrence of Wang and Ramamoorthi (2018) for I_l =
- * ∫ P_l ds and D_l = ∫ P'_l ds, without I_l, is
- *
- *     D_(l+2) = (1 + g - b z²) D_l - g D_(l-2) - b [P_l p'],  b = (2l+1)(2l+3) / (l+1)²,
- *                                                             g = b l² / (4l²-1),
- *
- * where z is the cosine of the lobe's axis with the edge's pole, and [P_l p'] is P_l times the
- * slope of the cosine of the axis at the edge's end, less that at its beginning. With the monic
- * p_l = P_l / k_l, k_l = (2l-1)!!/l!, and d_(l+2) = D_(l+2) / (b k_l), d_1 = D_1, two factors are
- * 1. */
-typedef struct polygon_tables {
-    double same[LMP_BANDS_MAX], less[LMP_BANDS_MAX], below[LMP_BANDS_MAX]; /* of d_l, z² d_l … */
-    double of_p[LMP_BANDS_MAX];   /* p_(l+1) = x p_l - of_p p_(l-1) */
-    double to_p[LMP_BANDS_MAX];   /* makes a weight of d_l one of p_l */
-    float weights[LMP_BANDS_MAX]; /* of d_l, times the window */
-} polygon_tables;
-
-static inline void polygon_prepare(int bands, const float *window, polygon_tables *tables) {
-    const double pi = 3.14159265358979323846;
-    double k = 1;
-    for (int i = 0; i < bands || i < POLYGON_BANDS_MIN; i++) {
-        const double l = i, square4 = 4 * l * l - 1;
-        const double b = (2 * l + 1) * (2 * l + 3) / ((l + 1) * (l + 1)), g = b * l * l / square4;
-        const double less = i < 2 ? l : l / (l - 1);
-        k *= i < 1 ? 1 : (2 * l - 1) / l;
-        tables->less[i] = less;
-        tables->same[i] = (1 + g) * less / b;
-        tables->below[i] =
-            i < 3 ? 0 : g / b * tables->less[i - 2] * l * (l - 1) / (square4 - 8 * (l - 0.5));
-        tables->of_p[i] = l * l / square4;
-        tables->to_p[i] = i < 1 ? 1 : l * (l + 1) / less;
-        tables->weights[i] = (float)((2 * l + 1) / (4 * pi) * k / tables->to_p[i] *
-                                     (i < bands ? (double)window[i] : 0));
-    }
-}
-
 /* Returns a lobe's response from l = 1 on; weights are LMPI_LANES apart. */
-LMPI_INLINE vd polygon_lobe(int count, int bands, const polygon_tables *tables,
+LMPI_INLINE vd polygon_lobe(int count, int bands, const flat_tables *tables,
                             const polygon_seen *seen, const vd q[3], const float *weights) {
     vd x[LMPI_POLYGON_CORNERS], p[LMPI_POLYGON_CORNERS], p_below[LMPI_POLYGON_CORNERS];
     vd begin[LMPI_POLYGON_CORNERS], end[LMPI_POLYGON_CORNERS], z[LMPI_POLYGON_CORNERS],

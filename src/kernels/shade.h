@@ -3,8 +3,8 @@
 #ifndef LAMPION_KERNELS_SHADE_H
 #define LAMPION_KERNELS_SHADE_H
 
+#include "src/kernels/flat.h"
 #include "src/kernels/lobe.h"
-#include "src/kernels/polygon.h"
 
 /* Surfaces to shade. Those with lobes have a diffuse lobe around the normal, and 1, 3 or 5 Phong
  * lobes, or none of these by `zonal`; a BRDF uses `view` instead. */
@@ -61,6 +61,11 @@ typedef struct lmpi_shade_kernels {
     void (*polygons)(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
                      const lmpi_kernel_polygon *lights, size_t light_count, size_t count,
                      const lmpi_kernel_accumulated *accumulated);
+    /* Does `zonal` with a disk where its edge has the nodes for it, and where the horizon does not
+     * cut it; left[i] says what else of it surface i sees, a sum of LMPI_LEFT_. */
+    void (*disk)(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
+                 const lmpi_kernel_disk *light, size_t count,
+                 const lmpi_kernel_accumulated *accumulated, float *left);
     /* Adds what the lobes reflect of light given by its coefficients at each surface, 3 bands^2
      * values, planar and readable like planes; diffuse[l] are the factors of the diffuse lobe. */
     void (*field)(int bands, const float *window, const float *diffuse,

@@ -60,14 +60,8 @@ void lmpi_area_prepare(const lmp_light *light, lmpi_area *area) {
     area->axis = lmpi_vector_unit(area->area);
 }
 
-/* Returns a unit vector perpendicular to a unit vector. */
-static lmpi_vector perpendicular(lmpi_vector v) {
-    const lmpi_vector x = { 1, 0, 0 }, y = { 0, 1, 0 };
-    return lmpi_vector_unit(lmpi_vector_cross(v, fabs(v.x) < 0.6 ? x : y));
-}
-
 static void outline_disk(lmpi_vector center, double radius, lmpi_loop *loop) {
-    const lmpi_vector x = lmpi_vector_scale(perpendicular(loop->inner), radius);
+    const lmpi_vector x = lmpi_vector_scale(lmpi_vector_perpendicular(loop->inner), radius);
     const lmpi_vector y = lmpi_vector_cross(loop->inner, x);
     lmpi_loop_add_arc(loop, center, x, y, 1);
     lmpi_loop_add_arc(loop, center, lmpi_vector_scale(x, -1), lmpi_vector_scale(y, -1), 1);

@@ -4,7 +4,7 @@
 #ifndef LAMPION_LIGHT_SEEN_H
 #define LAMPION_LIGHT_SEEN_H
 
-#include "src/kernels/polygon.h"
+#include "src/kernels/flat.h"
 #include "src/light/cap.h"
 #include "src/light/loop.h"
 #include "src/light/packed.h"
@@ -35,12 +35,9 @@ typedef struct lmpi_area {
 
 void lmpi_area_prepare(const lmp_light *light, lmpi_area *area);
 
-static inline bool lmpi_area_has_corners(const lmpi_area *area) {
-    return !lmpi_area_is_tube(area->light) && area->count > 0;
-}
-
-/* Makes a polygon for the kernels of an area that has corners. */
-void lmpi_area_pack(const lmpi_area *area, lmpi_kernel_polygon *polygon);
+/* Pack for the kernels an area with corners, and a disk. */
+void lmpi_area_pack_polygon(const lmpi_area *area, lmpi_kernel_polygon *polygon);
+void lmpi_area_pack_disk(const lmpi_area *area, lmpi_kernel_disk *disk);
 
 /* Sees an area. A loop is not closed (loop.h), because irradiance does not need it. */
 void lmpi_area_see(const lmpi_area *area, lmp_vec3 point, lmpi_seen *seen);

@@ -50,4 +50,10 @@ static inline lmpi_vector lmpi_vector_unit(lmpi_vector v) {
     return lmpi_vector_scale(v, length > 0 ? 1 / length : 0);
 }
 
+/* Returns a unit vector perpendicular to a unit vector. */
+static inline lmpi_vector lmpi_vector_perpendicular(lmpi_vector v) {
+    const lmpi_vector x = { 1, 0, 0 }, y = { 0, 1, 0 };
+    return lmpi_vector_unit(lmpi_vector_cross(v, fabs(v.x) < 0.6 ? x : y));
+}
+
 #endif

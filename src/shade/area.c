@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* area.c - adds the light of areas to what a chunk of surfaces has accumulated: of those with
- * corners by a kernel, of disks and tubes surface by surface. */
+/* area.c - adds the light of areas to what a chunk of surfaces has accumulated: of flat ones by
+ * kernels, of tubes, and what the kernel of disks leaves, surface by surface. */
 #include "src/kernels/dispatch.h"
 #include "src/lobe/response.h"
 #include "src/shade/method.h"
@@ -33,20 +33,25 @@ static void add_color(lmp_rgb color, float scale, size_t i, float *const planes[
     planes[2][i] += color.b * scale;
 }
 
-/* Adds the light of an area on surface i to its diffuse lobe and to `phong_count` others. */
+/* Adds the light of an area on surface i to those of its diffuse lobe and of `phong_count` others
+ * that `parts` names. */
 static void add_area(const shade_prepared *prepared, const shade_chunk *chunk,
-                     const lobe_weights *lobes, int phong_count, const lmpi_area *area, size_t i) {
+                     const lobe_weights *lobes, int phong_count, const lmpi_area *area, int parts,
+                     size_t i) {
     float r[LMP_BANDS_MAX];
     lmpi_seen seen;
-    lmp_rgb diffuse = { 0, 0, 0 };
     lmpi_area_see(area, lmpi_batch_get(&chunk->surfaces.point, i), &seen);
-    if (phong_count > 0)
+    const int phong = parts & LMPI_LEFT_LOBES ? phong_count : 0;
+    if (phong > 0)
         lmpi_seen_close(&seen);
-    lmpi_seen_add_irradiance(&seen, lmpi_batch_get(&chunk->surfaces.normal, i), &diffuse);
-    add_color(diffuse, 1 / pi, i, chunk->sums.diffuse);
-    if (phong_count > 0 && !seen.is_loop)
+    if (parts & LMPI_LEFT_DIFFUSE) {
+        lmp_rgb diffuse = { 0, 0, 0 };
+        lmpi_seen_add_irradiance(&seen, lmpi_batch_get(&chunk->surfaces.normal, i), &diffuse);
+        add_color(diffuse, 1 / pi, i, chunk->sums.diffuse);
+    }
+    if (phong > 0 && !seen.is_loop)
         lmpi_cap_polynomials(prepared->bands, seen.cap.one_minus_cos, r);
-    for (int k = 0; k < phong_count; k++) {
+    for (int k = 0; k < phong; k++) {
         lmp_rgb specular = { 0, 0, 0 };
         lmpi_lobe_add_seen(prepared->bands, lobes[k].weights, lobes[k].lambda_0, r,
                            lmpi_batch_get(&chunk->surfaces.lobe[k].axis, i), &seen, &specular);
@@ -54,18 +59,41 @@ static void add_area(const shade_prepared *prepared, const shade_chunk *chunk,
     }
 }
 
-/* Adds the light of an area on all surfaces; neighbors often have the same material. */
+static int phong_count_of(const shade_chunk *chunk) {
+    return chunk->is_matte ? 0 : chunk->phong_count;
+}
+
+/* Adds those parts of the light of an area that are left, or all if left is NULL, on all surfaces;
+ * neighbors often have the same material. */
 static void add_area_everywhere(const shade_prepared *prepared, const shade_chunk *chunk,
-                                lobe_weights *lobes, const lmpi_area *area) {
-    const int phong_count = chunk->is_matte ? 0 : chunk->phong_count;
+                                lobe_weights *lobes, const lmpi_area *area, const float *left) {
+    const int phong_count = phong_count_of(chunk);
     for (size_t i = 0; i < chunk->count; i++) {
+        const int parts = left ? (int)left[i] : LMPI_LEFT_DIFFUSE | LMPI_LEFT_LOBES;
+        if (parts == 0)
+            continue;
         for (int k = 0; k < phong_count; k++) {
             const float exponent = chunk->surfaces.lobe[k].exponent[i];
             if (!lobes[k].known || exponent != lobes[k].exponent)
                 weigh(prepared, exponent, &lobes[k]);
         }
-        add_area(prepared, chunk, lobes, phong_count, area, i);
+        add_area(prepared, chunk, lobes, phong_count, area, parts, i);
     }
+}
+
+static lmpi_kernel_surfaces surfaces_of(const shade_chunk *chunk) {
+    lmpi_kernel_surfaces surfaces = chunk->surfaces;
+    surfaces.lobe_count = phong_count_of(chunk);
+    return surfaces;
+}
+
+static LMPI_NOINLINE void add_disk(const shade_prepared *prepared, const shade_chunk *chunk,
+                                   const lmpi_area *area, float *left) {
+    const lmpi_kernel_surfaces surfaces = surfaces_of(chunk);
+    lmpi_kernel_disk disk;
+    lmpi_area_pack_disk(area, &disk);
+    lmpi_kernels_get()->shade.disk(prepared->bands, prepared->window, &surfaces, &disk,
+                                   chunk->count, &chunk->sums, left);
 }
 
 /* Polygons that wait for a kernel. */
@@ -76,13 +104,23 @@ typedef struct polygons {
 
 static void add_polygons(const shade_prepared *prepared, const shade_chunk *chunk,
                          polygons *waiting) {
-    lmpi_kernel_surfaces surfaces = chunk->surfaces;
-    if (chunk->is_matte)
-        surfaces.lobe_count = 0;
+    const lmpi_kernel_surfaces surfaces = surfaces_of(chunk);
     lmpi_kernels_get()->shade.polygons(prepared->bands, prepared->window, &surfaces,
                                        waiting->polygon, waiting->count, chunk->count,
                                        &chunk->sums);
     waiting->count = 0;
+}
+
+/* Adds the light of an area that has no corners. */
+static void add_round(const shade_prepared *prepared, const shade_chunk *chunk, lobe_weights *lobes,
+                      const lmpi_area *area) {
+    _Alignas(64) float left[SHADE_SURFACES_MAX];
+    if (lmpi_area_is_tube(area->light)) {
+        add_area_everywhere(prepared, chunk, lobes, area, NULL);
+        return;
+    }
+    add_disk(prepared, chunk, area, left);
+    add_area_everywhere(prepared, chunk, lobes, area, left);
 }
 
 LMPI_NOINLINE void lmpi_shade_add_areas(const shade_prepared *prepared, const shade_chunk *chunk,
@@ -97,11 +135,11 @@ LMPI_NOINLINE void lmpi_shade_add_areas(const shade_prepared *prepared, const sh
         if (!lmpi_light_is_area(&lights[i]))
             continue;
         lmpi_area_prepare(&lights[i], &area);
-        if (!lmpi_area_has_corners(&area)) {
-            add_area_everywhere(prepared, chunk, lobes, &area);
+        if (lmpi_area_is_tube(&lights[i]) || area.count == 0) {
+            add_round(prepared, chunk, lobes, &area);
             continue;
         }
-        lmpi_area_pack(&area, &waiting.polygon[waiting.count++]);
+        lmpi_area_pack_polygon(&area, &waiting.polygon[waiting.count++]);
         if (waiting.count == SHADE_POLYGONS_MAX)
             add_polygons(prepared, chunk, &waiting);
     }

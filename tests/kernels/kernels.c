@@ -295,6 +295,12 @@ static void wrong_shade_polygons(int bands, const float *window,
     honest.shade.polygons(bands, window, surfaces, lights, light_count, count, accumulated);
     spoil_accumulated(accumulated);
 }
+static void wrong_shade_disk(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
+                             const lmpi_kernel_disk *light, size_t count,
+                             const lmpi_kernel_accumulated *accumulated, float *left) {
+    honest.shade.disk(bands, window, surfaces, light, count, accumulated, left);
+    spoil_accumulated(accumulated);
+}
 static void wrong_shade_preintegrated_lobe(const lmpi_kernel_preintegrated_lobe *lobe,
                                            const lmpi_kernel_lobe_positions *specular,
                                            const lmpi_kernel_surfaces *surfaces,
@@ -339,6 +345,7 @@ static const lmpi_kernels wrong = { .sh.eval = wrong_eval,
                                     .sh.image = wrong_image,
                                     .shade.zonal = wrong_shade_zonal,
                                     .shade.polygons = wrong_shade_polygons,
+                                    .shade.disk = wrong_shade_disk,
                                     .shade.field = wrong_shade_field,
                                     .shade.preintegrated_lobe = wrong_shade_preintegrated_lobe,
                                     .shade.preintegrated_brdf = wrong_shade_preintegrated_brdf };

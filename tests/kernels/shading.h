@@ -16,6 +16,7 @@
 enum {
     SHADE_LIGHTS = 11,
     SHADE_POLYGON_COUNT = 7,
+    SHADE_DISK_COUNT = 4,
     CELLS = 3,
     VIEWS = 5,
     CAPS = 4,
@@ -30,6 +31,7 @@ typedef struct shading {
     _Alignas(64) float exponent[LMPI_KERNEL_LOBES_MAX][COUNT + 16];
     lmpi_packed_light lights[SHADE_LIGHTS];
     lmpi_kernel_polygon polygons[SHADE_POLYGON_COUNT];
+    lmpi_kernel_disk disks[SHADE_DISK_COUNT];
     lmp_rgb ambient;
     float window[LMP_BANDS_MAX], diffuse[LMP_BANDS_MAX];
     lmpi_kernel_in sh; /* the light at each surface */
@@ -108,7 +110,26 @@ static void make_polygons(shading *s) {
         }
         lmpi_area area;
         lmpi_area_prepare(&light, &area);
-        lmpi_area_pack(&area, &s->polygons[i]);
+        lmpi_area_pack_polygon(&area, &s->polygons[i]);
+    }
+}
+
+/* Makes disks in place of spheres: touched, tiny, of any size, and one that is far. */
+static void make_disks(shading *s) {
+    const inputs *in = s->in;
+    static const int element[SHADE_DISK_COUNT] = { 0, 6, 20, 9 };
+    for (int i = 0; i < SHADE_DISK_COUNT; i++) {
+        const int e = element[i];
+        const lmp_light light = { .kind = LMP_LIGHT_DISK,
+                                  .position = { in->center[0][e], in->center[1][e],
+                                                in->center[2][e] },
+                                  .direction = { in->axis[0][e], in->axis[1][e], in->axis[2][e] },
+                                  .radius = in->radius[e],
+                                  .two_sided = i % 2 == 0,
+                                  .radiance = { in->rgb[0][i], in->rgb[1][i], in->rgb[2][i] } };
+        lmpi_area area;
+        lmpi_area_prepare(&light, &area);
+        lmpi_area_pack_disk(&area, &s->disks[i]);
     }
 }
 
@@ -246,6 +267,7 @@ static shading *shading_create(const inputs *in, int bands, int lobes) {
     set_seed((uint64_t)bands * 77 + 5);
     make_lights(s);
     make_polygons(s);
+    make_disks(s);
     make_preintegrated_lobe(s);
     make_preintegrated_brdf(s);
     make_lobes(s);

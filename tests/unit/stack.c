@@ -49,7 +49,12 @@ static const lmp_light area = { .kind = LMP_LIGHT_TUBE,
                                 .half = { { 1, 0, 0 } },
                                 .radius = 0.5f,
                                 .radiance = { 1, 1, 1 } };
-/* And one with the most corners, for the kernels. */
+/* And a disk and an area with the most corners, for the kernels. */
+static const lmp_light disk = { .kind = LMP_LIGHT_DISK,
+                                .position = { 0, 0, 3 },
+                                .direction = { 0, 0, -1 },
+                                .radius = 1,
+                                .radiance = { 1, 1, 1 } };
 static const lmp_light panel = { .kind = LMP_LIGHT_POLYGON,
                                  .position = { 0, 0, 3 },
                                  .two_sided = true,
@@ -127,6 +132,7 @@ static void shade_all_ways(void) {
             (void)lmp_shade(&settings, &material, &surface, &area, 1);
             lmp_shade_n(&settings, &surfaces, COUNT, &area, 1, (lmp_rgb_array) { rgb, 0 });
             lmp_shade_n(&settings, &surfaces, COUNT, &panel, 1, (lmp_rgb_array) { rgb, 0 });
+            lmp_shade_n(&settings, &surfaces, COUNT, &disk, 1, (lmp_rgb_array) { rgb, 0 });
         }
 }
 

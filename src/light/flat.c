@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* polygon.c - packs areas with corners for the kernels. */
+/* flat.c - packs flat areas for the kernels. */
 #include "src/light/seen.h"
 
 static_assert(LMPI_POLYGON_CORNERS >= LMP_LIGHT_CORNERS_MAX && LMPI_POLYGON_CORNERS % 2 == 0,
@@ -48,26 +48,52 @@ static lmpi_vector longest_side(const lmpi_area *area) {
     return longest;
 }
 
-/* Finds four points with the area's first and second moments, centroid ± u ± v where u and v are
- * the columns of the Cholesky factor. Of an area that is symmetric around its middle they have
- * the third moments, too, and of a rectangle they are Gauss' points. */
-static void find_points(const lmpi_area *area, double per_unit, lmpi_kernel_polygon *to) {
+/* Packs what all flat areas have, given the distance of the farthest point from the centroid. The
+ * points are centroid ± u ± v. */
+static void pack(const lmpi_area *area, double radius, bool symmetric, lmpi_vector u, lmpi_vector v,
+                 lmpi_kernel_flat *to) {
+    int exponent = 0;
+    frexp(radius, &exponent);
+    const double per_unit = ldexp(1, -exponent),
+                 whole = lmpi_vector_length(area->area) * per_unit * per_unit;
+    to->position = area->light->position;
+    to->per_unit = per_unit;
+    to->two_sided = area->light->two_sided;
+    to->radiance = area->light->radiance;
+    put(area->axis, to->normal);
+    put(lmpi_vector_scale(area->area, per_unit * per_unit), to->area);
+    to->per_area = whole > 0 ? 1 / whole : 0;
+    put(lmpi_vector_scale(area->count ? area->corner[0] : area->centroid, per_unit), to->corner);
+    put(lmpi_vector_scale(area->centroid, per_unit), to->centroid);
+    to->radius = radius * per_unit;
+    to->far_for_irradiance = symmetric ? 20 : 200;
+    to->far_for_lobes_a_band = symmetric ? 3.3 : 33;
+    for (int i = 0; i < LMPI_FLAT_POINTS; i++) {
+        const lmpi_vector p = along(along(area->centroid, i / 2 ? 1 : -1, u), i % 2 ? 1 : -1, v);
+        put(lmpi_vector_scale(p, per_unit), to->point[i]);
+    }
+    to->each = whole / LMPI_FLAT_POINTS;
+}
+
+/* --- polygons --------------------------------------------------------------------------------- */
+
+/* Finds u and v so that four points have the polygon's first and second moments: the columns of the
+ * Cholesky factor. Of a polygon that is symmetric around its middle they have the third moments,
+ * too, and of a rectangle they are Gauss' points. */
+static void find_points(const lmpi_area *area, lmpi_vector *u, lmpi_vector *v) {
     const lmpi_vector x = lmpi_vector_unit(longest_side(area));
     const lmpi_vector y = lmpi_vector_cross(area->axis, x);
     const moments m = moments_of(area, x, y);
     const double xx = sqrt(fmax(m.xx, 0)), xy = xx > 0 ? m.xy / xx : 0,
                  yy = sqrt(fmax(m.yy - xy * xy, 0));
-    const lmpi_vector u = along(lmpi_vector_scale(x, xx), xy, y), v = lmpi_vector_scale(y, yy);
-    for (int i = 0; i < LMPI_POLYGON_POINTS; i++) {
-        const lmpi_vector p = along(along(area->centroid, i / 2 ? 1 : -1, u), i % 2 ? 1 : -1, v);
-        put(lmpi_vector_scale(p, per_unit), to->point[i]);
-    }
-    to->each = lmpi_vector_length(area->area) * per_unit * per_unit / LMPI_POLYGON_POINTS;
+    *u = along(lmpi_vector_scale(x, xx), xy, y);
+    *v = lmpi_vector_scale(y, yy);
 }
 
 /* The corners go the other way around than the light's, from the same one on, and the last is
  * repeated where their number is odd. */
-static void find_edges(const lmpi_area *area, double per_unit, lmpi_kernel_polygon *to) {
+static void find_edges(const lmpi_area *area, lmpi_kernel_polygon *to) {
+    const double per_unit = to->flat.per_unit;
     const int count = area->count, even = count + count % 2;
     lmpi_vector around[LMPI_POLYGON_CORNERS];
     for (int i = 0; i < even; i++)
@@ -91,25 +117,36 @@ static bool is_symmetric(const lmpi_area *area, double radius) {
     return symmetric;
 }
 
-void lmpi_area_pack(const lmpi_area *area, lmpi_kernel_polygon *polygon) {
+void lmpi_area_pack_polygon(const lmpi_area *area, lmpi_kernel_polygon *polygon) {
     double radius = 0;
-    int exponent = 0;
+    lmpi_vector u, v;
     for (int i = 0; i < area->count; i++)
         radius = fmax(radius, lmpi_vector_length(lmpi_vector_sub(area->corner[i], area->centroid)));
-    frexp(radius, &exponent);
-    const double per_unit = ldexp(1, -exponent), whole = lmpi_vector_length(area->area);
-    const bool symmetric = is_symmetric(area, radius);
-    polygon->position = area->light->position;
-    polygon->per_unit = per_unit;
-    polygon->two_sided = area->light->two_sided;
-    polygon->radiance = area->light->radiance;
-    put(area->axis, polygon->normal);
-    put(lmpi_vector_scale(area->area, per_unit * per_unit), polygon->area);
-    polygon->per_area = whole > 0 ? 1 / (whole * per_unit * per_unit) : 0;
-    put(lmpi_vector_scale(area->centroid, per_unit), polygon->centroid);
-    polygon->radius = radius * per_unit;
-    polygon->far_for_irradiance = symmetric ? 20 : 200;
-    polygon->far_for_lobes_a_band = symmetric ? 2.5 : 25;
-    find_edges(area, per_unit, polygon);
-    find_points(area, per_unit, polygon);
+    find_points(area, &u, &v);
+    pack(area, radius, is_symmetric(area, radius), u, v, &polygon->flat);
+    find_edges(area, polygon);
+}
+
+/* --- disks ------------------------------------------------------------------------------------ */
+
+void lmpi_area_pack_disk(const lmpi_area *area, lmpi_kernel_disk *disk) {
+    const double pi = 3.14159265358979323846, root = sqrt(2 + sqrt(2)), radius = area->radius;
+    /* by roots and products, which are the same everywhere: an angle of pi / 16 from node to node
+     */
+    const double step[2] = { sqrt(2 + root) / 2, sqrt(2 - root) / 2 };
+    const lmpi_vector x = lmpi_vector_perpendicular(area->axis);
+    const lmpi_vector y = lmpi_vector_cross(x, area->axis);
+    double c = 1, s = 0;
+    pack(area, radius, true, lmpi_vector_scale(x, radius / 2), lmpi_vector_scale(y, radius / 2),
+         &disk->flat);
+    const double r = disk->flat.radius;
+    for (int i = 0; i < LMPI_DISK_NODES; i++) {
+        const lmpi_vector across = along(lmpi_vector_scale(x, c), s, y),
+                          on = along(lmpi_vector_scale(y, c), -s, x);
+        put(lmpi_vector_scale(across, r), disk->node[i]);
+        put(lmpi_vector_scale(on, 2 * pi / LMPI_DISK_NODES * r), disk->along[i]);
+        const double next = c * step[0] - s * step[1];
+        s = s * step[0] + c * step[1];
+        c = next;
+    }
 }
