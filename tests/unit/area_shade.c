@@ -188,6 +188,31 @@ static void many_surfaces_reflect_the_integral_over_the_area(void **state) {
     check_many(48, check_count(1, 6), 1e-5, 1e-4);
 }
 
+/* Lobes that are narrower than the distance from node to node of the edge. */
+static void sharp_lobes_see_the_edge_of_a_wide_disk(void **state) {
+    (void)state;
+    enum { MANY_BANDS = 100 };
+    static many_surfaces s;
+    const float exponent = 20000;
+    const lmp_material glossy = glossy_of(exponent);
+    s.area.light = (lmp_light) {
+        .kind = LMP_LIGHT_DISK, .direction = { 0, 0, -1 }, .radius = 1, .radiance = { 1, 1, 1 }
+    };
+    for (int i = 0; i < MANY; i++) {
+        const double angle = check_random_between(0, 2 * ORACLE_PI),
+                     r = check_random_between(0.8, 1.2), x = check_random_between(-0.3, 0.3),
+                     height = check_random_between(1, 3);
+        const double to[3] = { r * cos(angle) - x, r * sin(angle), height };
+        const double length = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+        s.position[i] = (lmp_vec3) { (float)x, 0, (float)-height };
+        s.normal[i] = s.view[i] = (lmp_vec3) { (float)(to[0] / length), (float)(to[1] / length),
+                                               (float)(to[2] / length) };
+    }
+    shade_some(MANY_BANDS, &glossy, &s, 0, MANY, s.glossy);
+    for (int i = 0; i < MANY; i++)
+        CHECK_WITHIN(glossy_error(&s, MANY_BANDS, exponent, i), 1e-4);
+}
+
 static void neighbors_change_no_bit(void **state) {
     (void)state;
     static many_surfaces s;
@@ -302,6 +327,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_method_shades_lobes_alike),
         cmocka_unit_test(many_surfaces_reflect_the_integral_over_the_area),
+        cmocka_unit_test(sharp_lobes_see_the_edge_of_a_wide_disk),
         cmocka_unit_test(neighbors_change_no_bit),
         cmocka_unit_test(points_that_take_over_do_not_show),
         cmocka_unit_test(neighbors_of_other_materials_are_shaded_alone),
