@@ -10,14 +10,26 @@
 static const float hit_cosine = 0.3f, link_cosine = 0.8f;
 
 /* Rays along a surface start and end this many spacings off it, because it may be curved. */
-static const float off_surface = 0.05f;
+static const float off_surface = 0.02f;
 
 /* --- rays ------------------------------------------------------------------------------------- */
 
-static trace_hit cast(const transfer_view *view, lmp_vec3 from, lmp_vec3 direction) {
+static trace_hit cast(const trace_bvh *bvh, lmp_vec3 from, lmp_vec3 direction) {
     const float origin[3] = { from.x, from.y, from.z };
     const float along[3] = { direction.x, direction.y, direction.z };
-    return trace_nearest(view->bvh, TRACE_LIGHT, origin, along);
+    return trace_nearest(bvh, TRACE_LIGHT, origin, along);
+}
+
+void transfer_drop_buried(const scene *world, const trace_bvh *bvh, transfer_surfels *surfels) {
+    const float lift = (float)trace_lift(world), least = 2 * off_surface * surfels->spacing;
+    size_t count = 0;
+    for (size_t i = 0; i < surfels->count; i++) {
+        const lmp_transfer_surfel *at = &surfels->at[i];
+        const lmp_vec3 from = vec_add(at->position, vec_scale(at->normal, lift));
+        if (cast(bvh, from, at->normal).distance >= least)
+            surfels->at[count++] = *at;
+    }
+    surfels->count = count;
 }
 
 /* Returns direction k from a surfel: distributed as the cosine, by Roberts' sequence R2, which is
@@ -39,7 +51,7 @@ static bool sees(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal, uin
     const float off = off_surface * view->cells->surfels->spacing;
     const lmp_vec3 from = vec_add(point, vec_scale(normal, off));
     const lmp_vec3 way = vec_sub(vec_add(to->position, vec_scale(to->normal, off)), from);
-    return cast(view, from, way).distance >= 1;
+    return cast(view->bvh, from, way).distance >= 1;
 }
 
 uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal) {
@@ -54,7 +66,7 @@ uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 no
 
 /* Returns the surfel where a ray ends; none where it sees the back of a single-sided triangle. */
 static uint32_t source_along(const transfer_view *view, lmp_vec3 from, lmp_vec3 direction) {
-    const trace_hit hit = cast(view, from, direction);
+    const trace_hit hit = cast(view->bvh, from, direction);
     float corners[3][3];
     lmp_vec3 normal;
     if (hit.instance == TRACE_NOTHING)

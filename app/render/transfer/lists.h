@@ -6,6 +6,10 @@
 #include "app/render/transfer/cells.h"
 #include "app/scene/trace/trace.h"
 
+/* Removes the surfels of surfaces that another one covers closely, such as a floor's under a rug:
+ * they are dark, and points of the cover would find them nearest. */
+void transfer_drop_buried(const scene *world, const trace_bvh *bvh, transfer_surfels *surfels);
+
 /* What the rays of a scene are cast by. */
 typedef struct transfer_view {
     const scene *scene;

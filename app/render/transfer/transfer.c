@@ -4,7 +4,6 @@
 #include "app/base/timing.h"
 #include "app/render/shade.h"
 #include "app/render/transfer/direct.h"
-#include "app/scene/bake.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
@@ -26,22 +25,20 @@ struct transfer {
 /* --- creation --------------------------------------------------------------------------------- */
 
 static lmp_result make_transfer(transfer *t, const transfer_lists *lists) {
-    const char *what = "bouncing light";
-    lmp_host host = bake_host(&what);
     const lmp_transfer_desc desc = { .surfels = t->surfels.at,
                                      .surfel_count = t->surfels.count,
                                      .hits = lists->hits,
                                      .ray_count = TRANSFER_RAYS,
                                      .links = lists->links,
                                      .link_count = TRANSFER_LINKS };
-    host.progress = NULL;
-    return lmp_transfer_create(&host, &desc, &t->transfer);
+    return lmp_transfer_create(NULL, &desc, &t->transfer);
 }
 
 static bool create_parts(transfer *t, const scene *world, const trace_bvh *bvh) {
     transfer_lists lists = { NULL, NULL };
     if (!transfer_surfels_make(world, &t->surfels))
         return false;
+    transfer_drop_buried(world, bvh, &t->surfels);
     if (t->surfels.count == 0)
         return true;
     t->view = (transfer_view) { world, bvh, &t->cells };
@@ -93,21 +90,19 @@ static bool are_lights_kept(const transfer *t, const render_frame *frame) {
 }
 
 /* Lights the surfels and lets the light bounce, from darkness, so that a frame does not depend on
- * those before it. */
+ * those before it. One thread bounces: it takes milliseconds, and threads would wait for each other
+ * after every iteration. */
 static bool follow_lights(transfer *t, const render_frame *frame) {
     const double start = timing_now();
-    const char *what = "bouncing light";
-    lmp_host host = bake_host(&what);
     const lmp_transfer_settings settings = { .iterations = t->settings.bounces };
     const lmp_transfer_lighting lighting = { .direct = t->direct };
-    host.progress = NULL;
     t->lit = false;
     if (!transfer_light_directly(&t->view, frame, t->settings.around, t->settings.shadows,
                                  t->direct))
         return false;
     const double lit = timing_now();
     lmp_transfer_reset(t->transfer);
-    if (lmp_transfer_update(&host, t->transfer, &settings, &lighting) != LMP_OK)
+    if (lmp_transfer_update(NULL, t->transfer, &settings, &lighting) != LMP_OK)
         return false;
     t->statistics.light_milliseconds = 1e3 * (lit - start);
     t->statistics.bounce_milliseconds = 1e3 * (timing_now() - lit);
