@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Emissive meshes as lights: which shapes are found, which way they face, and how large they are.
  */
-#include "app/scene/load/pieces.h"
+#include "app/scene/load/patches.h"
 #include "app/scene/load/round.h"
 #include "app/scene/vector.h"
 #include "tests/oracle/check.h"
@@ -13,13 +13,13 @@
 enum { TRIANGLES_MAX = 2048, MOST = 40 };
 
 typedef struct shape {
-    patch_triangle triangles[TRIANGLES_MAX];
+    piece_triangle triangles[TRIANGLES_MAX];
     size_t count;
 } shape;
 
 static void add(shape *s, lmp_vec3 a, lmp_vec3 b, lmp_vec3 c) {
     assert_true(s->count < TRIANGLES_MAX);
-    s->triangles[s->count++] = (patch_triangle) { .corner = { a, b, c } };
+    s->triangles[s->count++] = (piece_triangle) { .corner = { a, b, c } };
 }
 
 static void add_quad(shape *s, lmp_vec3 a, lmp_vec3 b, lmp_vec3 c, lmp_vec3 d) {

@@ -131,6 +131,8 @@ static void shade_all_ways(void) {
                 continue; /* areas do not shine on them */
             (void)lmp_shade(&settings, &material, &surface, &area, 1);
             lmp_shade_n(&settings, &surfaces, COUNT, &area, 1, (lmp_rgb_array) { rgb, 0 });
+            if (method == LMP_SHADE_COEFFICIENTS)
+                continue; /* all areas are projected alike, and slowly */
             lmp_shade_n(&settings, &surfaces, COUNT, &panel, 1, (lmp_rgb_array) { rgb, 0 });
             lmp_shade_n(&settings, &surfaces, COUNT, &disk, 1, (lmp_rgb_array) { rgb, 0 });
         }
@@ -205,6 +207,7 @@ static void shade_under_a_field(void) {
     X(lmp_light_project_channels, lmp_light_project_channels(N, lights, LIGHTS, at, out, NULL, slopes)) \
     X(lmp_sphere_project_zonal, lmp_sphere_project_zonal(N, 0.5f, 1, lambda)) \
     X(lmp_sphere_project, lmp_sphere_project(N, up, 0.5f, at, out)) \
+    X(lmp_light_project_gradient, lmp_light_project_gradient(N, &area, at, out, slopes)) \
     X(lmp_sphere_project_gradient, lmp_sphere_project_gradient(N, up, 0.5f, at, out, slopes)) \
     X(lmp_sphere_project_zonal_n, LAYOUTS(lmp_sphere_project_zonal_n(N, floats, floats, COUNT, (lmp_sh_array) { out, 0, layout }))) \
     X(lmp_sphere_project_n, LAYOUTS(lmp_sphere_project_n(N, &spheres, points, LIGHTS, (lmp_sh_array) { out, 0, layout }), lmp_sphere_project_n(10, &one_sphere, lmp_vec3_array_same(&at), LARGE, (lmp_sh_array) { large, 0, layout }))) \

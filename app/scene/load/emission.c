@@ -4,7 +4,6 @@
 #include "app/scene/instance.h"
 #include "app/scene/load/emission_map.h"
 #include "app/scene/load/patches.h"
-#include "app/scene/load/pieces.h"
 #include "app/scene/load/round.h"
 #include "app/scene/sides.h"
 #include "app/scene/vector.h"
@@ -26,7 +25,7 @@ static const double flat_part = 0.9;
 
 /* An emissive mesh in the world: its triangles that have areas and shine, turned to where. */
 typedef struct glowing {
-    patch_triangle *triangles;
+    piece_triangle *triangles;
     size_t count;
     size_t both; /* triangles that shine from both sides */
 } glowing;
@@ -42,7 +41,7 @@ static float brightest_of(const float radiance[3]) {
 static void add_triangle(const emission_maps *maps, const scene_material *material, size_t instance,
                          uint32_t number, bool double_sided, sides_of side, glowing *g) {
     float corners[3][3];
-    patch_triangle *t = &g->triangles[g->count];
+    piece_triangle *t = &g->triangles[g->count];
     const bool turned = double_sided && side == SIDES_INWARD;
     scene_triangle_positions(maps->geometry, instance, number, corners);
     t->both = double_sided && side == SIDES_OPEN;
@@ -50,7 +49,7 @@ static void add_triangle(const emission_maps *maps, const scene_material *materi
     for (int i = 0; i < 3; i++)
         t->corner[i] = vec_load(corners[turned ? 2 - i : i]);
     emission_maps_mean(maps, material, instance, number, t->radiance);
-    g->count += patch_triangle_area(t) > 0.0;
+    g->count += piece_triangle_area(t) > 0.0;
 }
 
 /* Removes the triangles that are dark beside the brightest. */
@@ -60,7 +59,7 @@ static void remove_dark(glowing *g) {
     for (size_t i = 0; i < g->count; i++)
         most = fmaxf(most, brightest_of(g->triangles[i].radiance));
     for (size_t i = 0; i < g->count; i++) {
-        const patch_triangle t = g->triangles[i];
+        const piece_triangle t = g->triangles[i];
         if (!(brightest_of(t.radiance) > darkest * most))
             continue;
         g->triangles[left++] = t;
@@ -93,9 +92,9 @@ static bool collect(scene_builder *builder, const emission_maps *maps,
 static void sum_power(const piece *p, double power[3]) {
     power[0] = power[1] = power[2] = 0;
     for (size_t i = 0; i < p->count; i++) {
-        const patch_triangle *t = &p->triangles[i];
+        const piece_triangle *t = &p->triangles[i];
         for (int c = 0; c < 3; c++)
-            power[c] += (t->both ? 2 : 1) * patch_triangle_area(t) * (double)t->radiance[c];
+            power[c] += (t->both ? 2 : 1) * piece_triangle_area(t) * (double)t->radiance[c];
     }
 }
 
@@ -141,10 +140,10 @@ static spread_area measure(const piece *p) {
     const lmp_vec3 first = p->triangles[0].corner[0];
     spread_area sum = { .whole = 0 };
     for (size_t i = 0; i < p->count; i++) {
-        const patch_triangle *t = &p->triangles[i];
+        const piece_triangle *t = &p->triangles[i];
         const lmp_vec3 a = vec_sub(t->corner[0], first), b = vec_sub(t->corner[1], first),
                        c = vec_sub(t->corner[2], first);
-        const double area = patch_triangle_area(t);
+        const double area = piece_triangle_area(t);
         sum.whole += area;
         sum.facing = vec_add(sum.facing, vec_scale(vec_cross(vec_sub(b, a), vec_sub(c, a)), 0.5f));
         sum.moment = vec_add(sum.moment, vec_scale(vec_add(a, vec_add(b, c)), (float)area / 3));
@@ -157,8 +156,8 @@ static spread_area measure(const piece *p) {
 static double turn_to_spread(const piece *p, lmp_vec3 middle, lmp_vec3 *x, lmp_vec3 *y) {
     double xx = 0, xy = 0, yy = 0;
     for (size_t i = 0; i < p->count; i++) {
-        const patch_triangle *t = &p->triangles[i];
-        const double part = patch_triangle_area(t) / 12;
+        const piece_triangle *t = &p->triangles[i];
+        const double part = piece_triangle_area(t) / 12;
         double sum[2] = { 0, 0 };
         for (int k = 0; k < 4; k++) { /* the corners, and then their sum */
             const lmp_vec3 from = vec_sub(t->corner[k % 3], middle);

@@ -2,7 +2,6 @@
 #include "app/scene/load/patches.h"
 
 #include "app/scene/light.h"
-#include "app/scene/load/pieces.h"
 #include "app/scene/outline.h"
 #include "app/scene/vector.h"
 
@@ -27,7 +26,7 @@ typedef struct side {
 } side;
 
 typedef struct patches {
-    const patch_triangle *triangles;
+    const piece_triangle *triangles;
     uint32_t count;
     uint32_t *corner; /* per corner the number of its position */
     lmp_vec3 *normal; /* per triangle */
@@ -222,13 +221,13 @@ static bool make_light(const outline *o, bool both, lmp_light *light) {
 }
 
 /* Returns the mean radiance of a patch, or of one triangle of it. */
-static lmp_rgb radiance_of(const patches *p, uint32_t patch, const patch_triangle *only) {
+static lmp_rgb radiance_of(const patches *p, uint32_t patch, const piece_triangle *only) {
     double sum[3] = { 0, 0, 0 }, all = 0;
     for (uint32_t i = 0; i < p->count; i++) {
-        const patch_triangle *t = &p->triangles[i];
+        const piece_triangle *t = &p->triangles[i];
         if (only ? t != only : patch_of(p, i) != patch)
             continue;
-        const double area = patch_triangle_area(t);
+        const double area = piece_triangle_area(t);
         all += area;
         for (int c = 0; c < 3; c++)
             sum[c] += area * (double)t->radiance[c];
@@ -237,7 +236,7 @@ static lmp_rgb radiance_of(const patches *p, uint32_t patch, const patch_triangl
 }
 
 /* Adds a light for an outline of a patch, all of it or one triangle. */
-static bool add_outline(patches *p, const outline *o, uint32_t patch, const patch_triangle *only) {
+static bool add_outline(patches *p, const outline *o, uint32_t patch, const piece_triangle *only) {
     if (p->made == p->most || !make_light(o, p->triangles[patch].both, &p->lights[p->made]))
         return false;
     p->lights[p->made++].radiance = radiance_of(p, patch, only);
@@ -267,12 +266,7 @@ static size_t count_patches(const patches *p) {
     return patch_count;
 }
 
-double patch_triangle_area(const patch_triangle *triangle) {
-    const lmp_vec3 *c = triangle->corner;
-    return 0.5 * (double)vec_length(vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0])));
-}
-
-bool patches_make(const patch_triangle *triangles, size_t count, size_t most, lmp_light *lights,
+bool patches_make(const piece_triangle *triangles, size_t count, size_t most, lmp_light *lights,
                   size_t *made) {
     patches p = { .triangles = triangles,
                   .count = (uint32_t)count,

@@ -1,8 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/load/pieces.h"
 
+#include "app/scene/vector.h"
+
 #include <stdlib.h>
 #include <string.h>
+
+double piece_triangle_area(const piece_triangle *triangle) {
+    const lmp_vec3 *c = triangle->corner;
+    return 0.5 * (double)vec_length(vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0])));
+}
 
 typedef struct place {
     lmp_vec3 at;
@@ -23,7 +30,7 @@ static int compare_places(const void *a, const void *b) {
     return compare_positions(p->at, q->at);
 }
 
-bool pieces_number_corners(const patch_triangle *triangles, size_t count, uint32_t *corner) {
+bool pieces_number_corners(const piece_triangle *triangles, size_t count, uint32_t *corner) {
     place *places = malloc((3 * count + 1) * sizeof *places);
     if (!places)
         return false;
@@ -47,7 +54,7 @@ uint32_t pieces_root(uint32_t *joined, uint32_t item) {
 
 /* What pieces_sort works with. */
 typedef struct sorting {
-    patch_triangle *sorted;
+    piece_triangle *sorted;
     uint32_t *corner; /* per corner the number of its position */
     uint32_t *joined; /* per position another of its piece, or itself */
     uint32_t *number; /* per position that is a root the number of its piece, from 1 */
@@ -76,11 +83,11 @@ static uint32_t number_pieces(sorting *s, size_t count) {
 }
 
 /* Moves the triangles to their pieces. */
-static void move(sorting *s, patch_triangle *triangles, size_t count, piece *pieces,
+static void move(sorting *s, piece_triangle *triangles, size_t count, piece *pieces,
                  uint32_t piece_count) {
     for (uint32_t t = 0; t < count; t++)
         pieces[s->number[piece_of(s, t)] - 1].count++;
-    patch_triangle *first = triangles;
+    piece_triangle *first = triangles;
     for (uint32_t i = 0; i < piece_count; i++) {
         pieces[i].triangles = first;
         first += pieces[i].count;
@@ -93,7 +100,7 @@ static void move(sorting *s, patch_triangle *triangles, size_t count, piece *pie
     }
 }
 
-bool pieces_sort(patch_triangle *triangles, size_t count, piece **pieces, size_t *piece_count) {
+bool pieces_sort(piece_triangle *triangles, size_t count, piece **pieces, size_t *piece_count) {
     sorting s = { .sorted = malloc((count + 1) * sizeof *s.sorted),
                   .corner = malloc((3 * count + 1) * sizeof *s.corner),
                   .joined = malloc((3 * count + 1) * sizeof *s.joined),

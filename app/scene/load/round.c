@@ -20,9 +20,9 @@ static double coordinate(lmp_vec3 v, int k) {
     return (double)(k == 0 ? v.x : k == 1 ? v.y : v.z);
 }
 
-static void find_middle(const patch_triangle *triangles, size_t count, spindle *s) {
+static void find_middle(const piece_triangle *triangles, size_t count, spindle *s) {
     for (size_t i = 0; i < count; i++) {
-        const double area = patch_triangle_area(&triangles[i]);
+        const double area = piece_triangle_area(&triangles[i]);
         s->surface += area;
         for (int c = 0; c < 3; c++)
             for (int k = 0; k < 3; k++)
@@ -33,10 +33,10 @@ static void find_middle(const patch_triangle *triangles, size_t count, spindle *
 }
 
 /* Finds the direction in which the surface extends most, by powers of its second moments. */
-static void find_axis(const patch_triangle *triangles, size_t count, spindle *s) {
+static void find_axis(const piece_triangle *triangles, size_t count, spindle *s) {
     double moments[3][3] = { { 0 } };
     for (size_t i = 0; i < count; i++) {
-        const double area = patch_triangle_area(&triangles[i]);
+        const double area = piece_triangle_area(&triangles[i]);
         for (int c = 0; c < 3; c++)
             for (int j = 0; j < 3; j++)
                 for (int k = 0; k < 3; k++)
@@ -70,7 +70,7 @@ static void place(const spindle *s, lmp_vec3 corner, double *along, double *off)
     *off = sqrt(fmax(square - *along * *along, 0));
 }
 
-static void measure(const patch_triangle *triangles, size_t count, spindle *s) {
+static void measure(const piece_triangle *triangles, size_t count, spindle *s) {
     s->low = (double)INFINITY;
     s->high = -(double)INFINITY;
     for (size_t i = 0; i < 3 * count; i++) {
@@ -84,7 +84,7 @@ static void measure(const patch_triangle *triangles, size_t count, spindle *s) {
 
 /* Whether all corners are on a tube of half the length, or, with flat ends, on its side or at its
  * ends. */
-static bool are_on(const patch_triangle *triangles, size_t count, const spindle *s, double half,
+static bool are_on(const piece_triangle *triangles, size_t count, const spindle *s, double half,
                    bool flat) {
     const double middle = 0.5 * (s->low + s->high);
     for (size_t i = 0; i < 3 * count; i++) {
@@ -99,7 +99,7 @@ static bool are_on(const patch_triangle *triangles, size_t count, const spindle 
     return true;
 }
 
-bool round_make_tube(const patch_triangle *triangles, size_t count, lmp_light *tube) {
+bool round_make_tube(const piece_triangle *triangles, size_t count, lmp_light *tube) {
     spindle s = { .surface = 0 };
     find_middle(triangles, count, &s);
     if (!(s.surface > 0))
