@@ -16,7 +16,7 @@ static void differences(project_exactly *project, const lmp_light *light, lmp_ve
     static double sh[4][LMP_SH_COUNT(BANDS_MANY)];
     static const double offset[4] = { -2, -1, 1, 2 },
                         weight[4] = { 1. / 12, -2. / 3, 2. / 3, -1. / 12 };
-    const int count = LMP_SH_COUNT(bands);
+    const int count = (int)LMP_SH_COUNT(bands);
     for (int a = 0; a < 3; a++) {
         for (int k = 0; k < 4; k++) {
             double at[3] = { (double)point.x, (double)point.y, (double)point.z };
@@ -38,7 +38,7 @@ static void check(project_exactly *project, const lmp_light *light, lmp_vec3 poi
     static double expected[3 * LMP_SH_COUNT(BANDS_MANY)];
     static float sh[LMP_SH_COUNT(BANDS_MANY)], red[LMP_SH_COUNT(BANDS_MANY)],
         gradient[3 * LMP_SH_COUNT(BANDS_MANY)];
-    const int count = LMP_SH_COUNT(bands);
+    const int count = (int)LMP_SH_COUNT(bands);
     lmp_light unit = *light;
     unit.radiance = (lmp_rgb) { 1, 0, 0 };
     lmp_light_project_gradient(bands, light, point, sh, gradient);
