@@ -38,8 +38,7 @@ may_include() {
     app/render) echo app/base app/scene app/scene/trace app/render LIBRARY ;;
     app/render/gl) echo app/base app/image app/scene app/render app/render/gl shaders lookup LIBRARY ;;
     app/render/cpu | app/render/shadow) echo app/base app/image app/scene app/scene/trace app/render "$1" LIBRARY ;;
-    app/render/transfer) echo app/base app/scene app/scene/trace app/render app/render/shadow app/render/transfer LIBRARY ;;
-    app/render/renderer) echo app/base app/image app/scene app/render app/render/gl app/render/cpu app/render/shadow app/render/transfer app/render/renderer LIBRARY ;;
+    app/render/renderer) echo app/base app/image app/scene app/render app/render/gl app/render/cpu app/render/shadow app/render/renderer LIBRARY ;;
     # This room judges: it uses no kernel, no shading and no table of the library (read_tables below).
     app/truth/reference) echo app/base app/image app/scene app/scene/trace app/truth/reference base sh sphere light lobe brdf ;;
     app/truth) echo app/base app/image app/scene app/truth app/truth/reference base sh sphere light lobe brdf preintegrated material shade ;;

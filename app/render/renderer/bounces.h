@@ -4,7 +4,7 @@
 #define LAMPION_RENDER_RENDERER_BOUNCES_H
 
 #include "app/render/renderer/renderer.h"
-#include "app/render/transfer/transfer.h"
+#include "app/render/shadow/transfer.h"
 
 /* Creates the bounced light of the device's scene, by the rays of render_device_bvh, as
  * transfer_create does: the device and the environment must outlive it. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/transfer/surfels.h"
+#include "app/render/shadow/surfels.h"
 
 #include "app/scene/instance.h"
 #include "app/scene/texture_at.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/transfer/lists.h"
+#include "app/render/shadow/lists.h"
 
 #include "app/scene/instance.h"
 #include "app/scene/vector.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/transfer/direct.h"
+#include "app/render/shadow/direct.h"
 
 #include "app/render/shade_lights.h"
 #include "app/render/shadow/source.h"

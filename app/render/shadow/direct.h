@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* direct.h - the light that surfels receive from lights and the environment. */
-#ifndef LAMPION_RENDER_TRANSFER_DIRECT_H
-#define LAMPION_RENDER_TRANSFER_DIRECT_H
+#ifndef LAMPION_RENDER_SHADOW_DIRECT_H
+#define LAMPION_RENDER_SHADOW_DIRECT_H
 
+#include "app/render/shadow/lists.h"
 #include "app/render/surfaces.h"
-#include "app/render/transfer/lists.h"
 
 /* Computes the direct irradiance of every surfel in a frame's light, on all cores: with shadows,
  * whose rays are spread over each light, or without. Returns false if memory ran out. */

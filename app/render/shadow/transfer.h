@@ -2,8 +2,8 @@
 /* transfer.h - light that bounces, by the library's transfer: the scene's surfels and rays are made
  * once, and every surface reads the surfels near it (docs/transfer.md). Named after the library's
  * part that it fills. */
-#ifndef LAMPION_RENDER_TRANSFER_TRANSFER_H
-#define LAMPION_RENDER_TRANSFER_TRANSFER_H
+#ifndef LAMPION_RENDER_SHADOW_TRANSFER_H
+#define LAMPION_RENDER_SHADOW_TRANSFER_H
 
 #include "app/render/surfaces.h"
 #include "app/scene/trace/trace.h"

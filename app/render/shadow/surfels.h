@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* surfels.h - samples of a scene's surfaces, spread evenly over their area. */
-#ifndef LAMPION_RENDER_TRANSFER_SURFELS_H
-#define LAMPION_RENDER_TRANSFER_SURFELS_H
+#ifndef LAMPION_RENDER_SHADOW_SURFELS_H
+#define LAMPION_RENDER_SHADOW_SURFELS_H
 
 #include "app/scene/scene.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/transfer/cells.h"
+#include "app/render/shadow/cells.h"
 
 #include "app/scene/vector.h"
 

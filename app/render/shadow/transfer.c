@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/transfer/transfer.h"
+#include "app/render/shadow/transfer.h"
 
 #include "app/base/timing.h"
 #include "app/render/shade.h"
-#include "app/render/transfer/direct.h"
+#include "app/render/shadow/direct.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
