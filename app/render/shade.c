@@ -265,24 +265,23 @@ void shade_tile(const shade_job *job, const render_surfaces *s, const shade_samp
                               reflected[4 * i + 2] + tile->emission[2][i] });
 }
 
+/* What all tiles of an image share. */
+typedef struct tiled_image {
+    const shade_job *job;
+    const render_surfaces *surfaces;
+    const shade_sample *before;
+    float *rgba;
+} tiled_image;
+
+static void shade_visited(const render_rectangle *pixels, render_tile *tile, void *user) {
+    const tiled_image *whole = user;
+    shade_tile(whole->job, whole->surfaces, whole->before, pixels, tile, whole->rgba);
+}
+
 bool shade_tiles(const shade_job *job, const render_surfaces *s, const shade_sample *before,
                  float *rgba) {
-    const int count = render_tile_count(s->width, s->height);
-    bool ok = true;
-#pragma omp parallel reduction(&& : ok)
-    {
-        render_tile tile;
-        const bool mine = ok = render_tile_create(RENDER_TILE_PIXELS, &tile);
-#pragma omp for schedule(dynamic)
-        for (int i = 0; i < count; i++)
-            if (mine) {
-                const render_rectangle pixels = render_tile_at(s->width, s->height, i);
-                shade_tile(job, s, before, &pixels, &tile, rgba);
-            }
-        if (mine)
-            render_tile_free(&tile);
-    }
-    return ok;
+    tiled_image whole = { job, s, before, rgba };
+    return render_tiles_visit(s->width, s->height, shade_visited, &whole);
 }
 
 /* Moves areas that the method does not sum behind the other lights. */

@@ -151,6 +151,25 @@ void render_tile_free(render_tile *tile) {
     free(tile->material);
 }
 
+bool render_tiles_visit(int width, int height, render_tile_user *use, void *user) {
+    const int count = render_tile_count(width, height);
+    bool ok = true;
+#pragma omp parallel reduction(&& : ok)
+    {
+        render_tile tile;
+        const bool mine = ok = render_tile_create(RENDER_TILE_PIXELS, &tile);
+#pragma omp for schedule(dynamic)
+        for (int i = 0; i < count; i++)
+            if (mine) {
+                const render_rectangle pixels = render_tile_at(width, height, i);
+                use(&pixels, &tile, user);
+            }
+        if (mine)
+            render_tile_free(&tile);
+    }
+    return ok;
+}
+
 static lmp_rgb light_of(const render_surfaces *s, uint32_t number) {
     return number < s->frame->light_count ? s->frame->lights[number].emitter.radiance
                                           : (lmp_rgb) { 0, 0, 0 };

@@ -116,6 +116,11 @@ typedef struct render_tile {
 bool render_tile_create(int pixels, render_tile *tile);
 void render_tile_free(render_tile *tile);
 
+/* Calls `use` for every tile of an image, on all cores, with a render_tile of the thread, whose
+ * contents `use` fills itself. Returns false if memory ran out. */
+typedef void render_tile_user(const render_rectangle *pixels, render_tile *tile, void *user);
+bool render_tiles_visit(int width, int height, render_tile_user *use, void *user);
+
 /* Extracts the pixels of a rectangle, rows from the top; may be called from any thread, each with a
  * tile of its own. */
 void render_surfaces_tile(const render_surfaces *surfaces, int x, int y, int width, int height,

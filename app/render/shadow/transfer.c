@@ -3,7 +3,7 @@
 
 #include "app/base/timing.h"
 #include "app/render/shade.h"
-#include "app/render/shadow/direct.h"
+#include "app/render/shadow/transfer_direct.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
@@ -148,47 +148,44 @@ static void add_span(const transfer *t, const lmp_shade_settings *settings, cons
     }
 }
 
-static void add_tile(const transfer *t, const lmp_shade_settings *settings,
-                     const render_surfaces *s, const render_rectangle *pixels, render_tile *tile,
-                     float *rgba) {
+/* What all tiles of an image share. */
+typedef struct tiled_image {
+    const transfer *transfer;
+    const render_surfaces *surfaces;
+    lmp_shade_settings settings;
+    float *rgba;
+} tiled_image;
+
+static void add_tile(const render_rectangle *pixels, render_tile *tile, void *user) {
+    const tiled_image *whole = user;
+    const render_surfaces *s = whole->surfaces;
     const size_t width = (size_t)pixels->width;
     render_surfaces_tile(s, pixels->x, pixels->y, pixels->width, pixels->height, tile);
     for (int y = 0; y < pixels->height; y++) {
         const size_t row = (size_t)y * width;
-        float *to = rgba + 4 * render_surfaces_at(s, pixels->x, pixels->y + y);
+        float *to = whole->rgba + 4 * render_surfaces_at(s, pixels->x, pixels->y + y);
         for (size_t x = 0, end; x < width; x = end) {
             end = x + 1;
             if (tile->kind[row + x] != RENDER_SURFACE)
                 continue;
             while (end < width && tile->kind[row + end] == RENDER_SURFACE)
                 end++;
-            add_span(t, settings, tile, s->layered, row + x, end - x, to + 4 * x);
+            add_span(whole->transfer, &whole->settings, tile, s->layered, row + x, end - x,
+                     to + 4 * x);
         }
     }
 }
 
 static bool add_bounces(const transfer *t, const render_frame *frame, const render_surfaces *s,
                         float *rgba) {
-    const int count = render_tile_count(s->width, s->height);
-    const lmp_shade_settings settings = { .method = method_table[frame->method].method,
-                                          .bands = frame->bands,
-                                          .window = frame->window,
-                                          .lobe = frame->lobes };
-    bool ok = true;
-#pragma omp parallel reduction(&& : ok)
-    {
-        render_tile tile;
-        const bool mine = ok = render_tile_create(RENDER_TILE_PIXELS, &tile);
-#pragma omp for schedule(dynamic)
-        for (int i = 0; i < count; i++)
-            if (mine) {
-                const render_rectangle pixels = render_tile_at(s->width, s->height, i);
-                add_tile(t, &settings, s, &pixels, &tile, rgba);
-            }
-        if (mine)
-            render_tile_free(&tile);
-    }
-    return ok;
+    tiled_image whole = { t,
+                          s,
+                          { .method = method_table[frame->method].method,
+                            .bands = frame->bands,
+                            .window = frame->window,
+                            .lobe = frame->lobes },
+                          rgba };
+    return render_tiles_visit(s->width, s->height, add_tile, &whole);
 }
 
 static bool run(void *user, const render_frame *frame, const render_surfaces *s, float *rgba,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* lists.h - what rays between surfels find, once. */
-#ifndef LAMPION_RENDER_SHADOW_LISTS_H
-#define LAMPION_RENDER_SHADOW_LISTS_H
+/* transfer_lists.h - what rays between surfels find, once. */
+#ifndef LAMPION_RENDER_SHADOW_TRANSFER_LISTS_H
+#define LAMPION_RENDER_SHADOW_TRANSFER_LISTS_H
 
-#include "app/render/shadow/cells.h"
+#include "app/render/shadow/transfer_cells.h"
 #include "app/scene/trace/trace.h"
 
 /* Removes the surfels of surfaces that another one covers closely, such as a floor's under a rug:

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/shadow/surfels.h"
+#include "app/render/shadow/transfer_surfels.h"
 
 #include "app/scene/instance.h"
 #include "app/scene/texture_at.h"
@@ -9,6 +9,11 @@
 
 /* Points on a surface read the surfels up to this many spacings away (docs/transfer.md). */
 #define REACH 1.5f
+
+void transfer_sequence(double k, double shift, double xy[2]) {
+    xy[0] = 0.7548776662466927 * k + 0.6180339887498949 * shift;
+    xy[1] = 0.5698402909980532 * k + 0.4142135623730950 * shift;
+}
 
 float transfer_face(float corners[3][3], lmp_vec3 *normal) {
     const lmp_vec3 p = vec_load(corners[0]);
@@ -78,9 +83,9 @@ static double sided_area(const scene *world) {
 static void add_point(const scene *world, size_t instance, uint32_t triangle, lmp_vec3 normal,
                       transfer_surfels *s) {
     const scene_material *material = &world->materials[scene_instance_material(world, instance)];
-    const double index = (double)s->count;
-    float u = (float)(0.7548776662466927 * index - floor(0.7548776662466927 * index));
-    float v = (float)(0.5698402909980532 * index - floor(0.5698402909980532 * index));
+    double xy[2];
+    transfer_sequence((double)s->count, 0, xy);
+    float u = (float)(xy[0] - floor(xy[0])), v = (float)(xy[1] - floor(xy[1]));
     scene_vertex corners[3];
     scene_triangle(world, instance, triangle, corners);
     if (u + v > 1) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* cells.h - surfels by their positions: a hash of cubic cells. */
-#ifndef LAMPION_RENDER_SHADOW_CELLS_H
-#define LAMPION_RENDER_SHADOW_CELLS_H
+/* transfer_cells.h - surfels by their positions: a hash of cubic cells. */
+#ifndef LAMPION_RENDER_SHADOW_TRANSFER_CELLS_H
+#define LAMPION_RENDER_SHADOW_TRANSFER_CELLS_H
 
-#include "app/render/shadow/surfels.h"
+#include "app/render/shadow/transfer_surfels.h"
 
 typedef struct transfer_cells {
     const transfer_surfels *surfels;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/shadow/cells.h"
+#include "app/render/shadow/transfer_cells.h"
 
 #include "app/scene/vector.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/shadow/direct.h"
+#include "app/render/shadow/transfer_direct.h"
 
 #include "app/render/shade_lights.h"
 #include "app/render/shadow/source.h"
@@ -64,11 +64,10 @@ static void add_sample(const transfer_view *view, const shadow_source *source, u
     trace_rays rays;
     trace_hit hits[TRACE_LANES];
     for (int i = 0; i < SHADOW_LANES; i++) {
-        const double k = (double)number, s = (double)(lanes->first + (size_t)i);
-        const double x = 0.7548776662466927 * k + 0.6180339887498949 * s;
-        const double y = 0.5698402909980532 * k + 0.4142135623730950 * s;
-        u[i] = (float)(x - floor(x));
-        v[i] = (float)(y - floor(y));
+        double xy[2];
+        transfer_sequence((double)number, (double)(lanes->first + (size_t)i), xy);
+        u[i] = (float)(xy[0] - floor(xy[0]));
+        v[i] = (float)(xy[1] - floor(xy[1]));
         sources[i] = source;
     }
     shadow_sources_draw(sources, &lanes->position, NULL, u, v, &samples);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/render/shadow/lists.h"
+#include "app/render/shadow/transfer_lists.h"
 
 #include "app/scene/instance.h"
 #include "app/scene/vector.h"
@@ -32,13 +32,12 @@ void transfer_drop_buried(const scene *world, const trace_bvh *bvh, transfer_sur
     surfels->count = count;
 }
 
-/* Returns direction k from a surfel: distributed as the cosine, by Roberts' sequence R2, which is
- * shifted for each surfel. */
+/* Returns direction k from a surfel, distributed as the cosine. */
 static lmp_vec3 direction_of(const lmp_transfer_surfel *surfel, size_t index, size_t k) {
-    const double x = 0.7548776662466927 * (double)k + 0.6180339887498949 * (double)index;
-    const double y = 0.5698402909980532 * (double)k + 0.4142135623730950 * (double)index;
-    const float u = (float)(x - floor(x));
-    const double azimuth = 2 * M_PI * y;
+    double xy[2];
+    transfer_sequence((double)k, (double)index, xy);
+    const float u = (float)(xy[0] - floor(xy[0]));
+    const double azimuth = 2 * M_PI * xy[1];
     const lmp_vec3 a = vec_across(surfel->normal), b = vec_cross(surfel->normal, a);
     const lmp_vec3 flat =
         vec_add(vec_scale(a, (float)cos(azimuth)), vec_scale(b, (float)sin(azimuth)));

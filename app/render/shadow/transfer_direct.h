@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* direct.h - the light that surfels receive from lights and the environment. */
-#ifndef LAMPION_RENDER_SHADOW_DIRECT_H
-#define LAMPION_RENDER_SHADOW_DIRECT_H
+/* transfer_direct.h - the light that surfels receive from lights and the environment. */
+#ifndef LAMPION_RENDER_SHADOW_TRANSFER_DIRECT_H
+#define LAMPION_RENDER_SHADOW_TRANSFER_DIRECT_H
 
-#include "app/render/shadow/lists.h"
+#include "app/render/shadow/transfer_lists.h"
 #include "app/render/surfaces.h"
 
 /* Computes the direct irradiance of every surfel in a frame's light, on all cores: with shadows,

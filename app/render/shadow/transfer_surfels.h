@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* surfels.h - samples of a scene's surfaces, spread evenly over their area. */
-#ifndef LAMPION_RENDER_SHADOW_SURFELS_H
-#define LAMPION_RENDER_SHADOW_SURFELS_H
+/* transfer_surfels.h - samples of a scene's surfaces, spread evenly over their area. */
+#ifndef LAMPION_RENDER_SHADOW_TRANSFER_SURFELS_H
+#define LAMPION_RENDER_SHADOW_TRANSFER_SURFELS_H
 
 #include "app/scene/scene.h"
 
@@ -18,6 +18,10 @@ typedef struct transfer_surfels {
  * there is none. Returns false if memory ran out; free surfels->at in any case. */
 #define TRANSFER_SURFELS_MAX 40000
 bool transfer_surfels_make(const scene *world, transfer_surfels *surfels);
+
+/* Writes number k of Roberts' sequence R2, whose fractions fill the square evenly, shifted by
+ * `shift` so that surfels do not share a pattern. */
+void transfer_sequence(double k, double shift, double xy[2]);
 
 /* Finds the unit normal of a triangle's face; returns its area. */
 float transfer_face(float corners[3][3], lmp_vec3 *normal);
