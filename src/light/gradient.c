@@ -97,8 +97,10 @@ static void differentiate_sphere(int bands, const lmpi_area *area, lmpi_vector t
     }
 }
 
+/* Projects an area, whose color must be white, as well as its derivatives. */
 static LMPI_NOINLINE void differentiate_area(int bands, const lmp_light *light, lmp_vec3 point,
                                              float *sh, float *gradient) {
+    float *const planes[3] = { sh, NULL, NULL };
     const lmpi_vector to = lmpi_vector_sub(lmpi_vector_of(light->position), lmpi_vector_of(point));
     lmpi_area area;
     lmpi_seen seen;
@@ -113,6 +115,8 @@ static LMPI_NOINLINE void differentiate_area(int bands, const lmp_light *light, 
         const dirac far = lmpi_area_is_tube(light) ? see_tube(&area, to) : see_flat(&area, to);
         differentiate(bands, &far, sh, gradient);
     }
+    memset(sh, 0, LMP_SH_COUNT(bands) * sizeof *sh);
+    lmpi_seen_add(0, bands, &seen, planes);
 }
 
 void lmp_light_project_gradient(int bands, const lmp_light *light, lmp_vec3 point, float *sh,
@@ -129,7 +133,9 @@ void lmp_light_project_gradient(int bands, const lmp_light *light, lmp_vec3 poin
     }
     if (lmpi_light_is_area(light)) {
         differentiate_area(bands, &unit, point, sh, gradient);
-    } else if (!lmpi_light_is_fixed(light)) {
+        return;
+    }
+    if (!lmpi_light_is_fixed(light)) {
         const dirac near = see_point(
             light, lmpi_vector_sub(lmpi_vector_of(light->position), lmpi_vector_of(point)));
         differentiate(bands, &near, sh, gradient);
