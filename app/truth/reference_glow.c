@@ -38,12 +38,11 @@ struct reference_glow_triangle {
     double uv[3][2];
 };
 
-static void find_triangle(const scene *world, size_t instance, uint32_t number,
-                          const scene_material *material, struct reference_glow_triangle *to) {
+static void find_triangle(const scene *world, size_t instance, uint32_t number, float p[3][3],
+                          struct reference_glow_triangle *to) {
+    const scene_material *material = &world->materials[scene_instance_material(world, instance)];
     const scene_vertex *corners[3];
-    float p[3][3];
     scene_triangle_vertices(world, instance, number, corners);
-    scene_triangle_positions(world, instance, number, p);
     to->map = material->emission_map.texture < 0 ? NULL : &material->emission_map;
     to->emission = material->emission;
     for (int i = 0; i < 3; i++) {
@@ -87,9 +86,11 @@ static void add_triangles(const scene *world, const scene_light *stands, referen
         float p[3][3];
         struct reference_glow_triangle *triangle = &glow->triangles[glow->count];
         scene_triangle_positions(world, instance, t, p);
-        find_triangle(world, instance, t, material, triangle);
+        if (!has_area(p))
+            continue;
+        find_triangle(world, instance, t, p, triangle);
         const lmp_rgb mean = mean_of(world, triangle);
-        if (has_area(p) && (mean.r > 0 || mean.g > 0 || mean.b > 0))
+        if (mean.r > 0 || mean.g > 0 || mean.b > 0)
             glow->lights[glow->count++] = light_of(p, turned, stands->glows_both, mean);
     }
 }

@@ -327,8 +327,8 @@ static bool add_lights(scene_builder *builder, glowing *g, size_t instance, size
 
 /* --- all meshes ------------------------------------------------------------------------------- */
 
-/* Checks that no emission is too bright, whether a light stands for it or, because of a texture,
- * none does; the message is that of lights. */
+/* Checks that no emission is too bright, whether or not a light stands for it; the message is that
+ * of lights. */
 static bool check_emission(const scene_builder *builder, const char *subject, base_error *error) {
     const scene_material *materials = builder_items(builder, BLOB_MATERIALS);
     for (size_t i = 0; i < builder_count(builder, BLOB_MATERIALS); i++)
