@@ -365,6 +365,53 @@ static void every_piece_shines_where_it_is(void **state) {
     scene_free(&world);
 }
 
+/* A ribbon, bent to three quarters of a ring, of more faces than lights, which shines inward and
+ * outward alike: the sphere around it has the power of both sides. */
+static void both_sides_of_an_open_piece_shine(void **state) {
+    (void)state;
+    enum { SEGMENTS = 50, CORNERS = 6 * SEGMENTS };
+    static const int end_of[6] = { 0, 1, 1, 0, 1, 0 }, side_of[6] = { 0, 0, 1, 0, 1, 1 };
+    static float at[CORNERS][3];
+    char json[1024];
+    double area = 0;
+    for (int i = 0; i < CORNERS; i++) {
+        const double angle = 1.5 * M_PI * (i / 6 + end_of[i % 6]) / SEGMENTS;
+        at[i][0] = (float)cos(angle);
+        at[i][1] = 0.1f * (float)side_of[i % 6];
+        at[i][2] = (float)sin(angle);
+    }
+    for (int i = 0; i < CORNERS; i += 3) {
+        double a[3], b[3];
+        for (int k = 0; k < 3; k++) {
+            a[k] = (double)at[i + 1][k] - (double)at[i][k];
+            b[k] = (double)at[i + 2][k] - (double)at[i][k];
+        }
+        area += hypot(hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2]),
+                      a[0] * b[1] - a[1] * b[0]) /
+                2;
+    }
+    snprintf(
+        json, sizeof json,
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"materials\":[{\"doubleSided\":true,\"emissiveFactor\":[1,1,1]}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+        "\"buffers\":[{\"uri\":\"ribbon.bin\",\"byteLength\":%d}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":%d,"
+        "\"type\":\"VEC3\",\"min\":[-1,0,-1],\"max\":[1,0.1,1]}]}",
+        (int)sizeof at, (int)sizeof at, CORNERS);
+    folder_write("ribbon.bin", at, sizeof at);
+    folder_write_text("ribbon.gltf", json);
+    scene world = load(in_folder("ribbon.gltf"));
+    assert_int_equal(world.light_count, 1);
+    const lmp_light *light = &world.lights[0].emitter;
+    assert_int_equal(light->kind, LMP_LIGHT_SPHERE);
+    CHECK_WITHIN(fabs((double)lmp_sphere_power_from_radiance(light->radiance.g, light->radius) -
+                      2 * M_PI * area),
+                 1e-4 * area);
+    scene_free(&world);
+}
+
 /* A strip that is bent lengthwise, beside a ball: a rectangle as long and wide. Its ends are a
  * tenth of its height higher than its middle, where the rectangle is. */
 static void a_bent_strip_is_a_rectangle(void **state) {
@@ -440,6 +487,7 @@ int main(void) {
         cmocka_unit_test(dark_parts_of_a_mesh_light_nothing),
         cmocka_unit_test(an_unreadable_map_lights_nothing),
         cmocka_unit_test(every_piece_shines_where_it_is),
+        cmocka_unit_test(both_sides_of_an_open_piece_shine),
         cmocka_unit_test(a_bent_strip_is_a_rectangle),
         cmocka_unit_test(the_strongest_pieces_have_all_power),
     };

@@ -117,6 +117,31 @@ static void coordinates_are_transformed_first(void **state) {
 
 /* --- lobes ------------------------------------------------------------------------------------ */
 
+/* Along a row or a column the texture is linear, and its mean that at the triangle's middle,
+ * however finely the triangle is divided. */
+static void the_mean_over_a_triangle_is_that_of_its_middle(void **state) {
+    (void)state;
+    static const double places[][3] = { { 0, 3, 1 }, { 2.5, 2.25, 3 }, { 1, 1, 1.001 } };
+    paint(0);
+    for (int k = 0; k < 6; k++) {
+        const double *at = places[k / 2], middle = (at[0] + at[1] + at[2]) / 3;
+        const bool rows = k % 2; /* two thirds as far */
+        double uv[3][2], rgba[4];
+        for (int i = 0; i < 3; i++) {
+            uv[i][0] = ((rows ? 0 : at[i]) + 0.5) / COLUMNS;
+            uv[i][1] = ((rows ? at[i] * 2 / 3 : 0) + 0.5) / ROWS;
+        }
+        texture_mean_at(&world, &use, uv, rgba);
+        for (int c = 0; c < 4; c++)
+            CHECK_WITHIN(
+                fabs(rgba[c] - channel_at(rows ? 0 : middle, rows ? middle * 2 / 3 : 0, c)), 1e-12);
+    }
+    double uv[3][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 } }, rgba[4];
+    use.texture = -1;
+    texture_mean_at(&world, &use, uv, rgba);
+    assert_true(rgba[0] == 1 && rgba[3] == 1);
+}
+
 static void lobes_have_the_value_of_their_definition(void **state) {
     (void)state;
     static const double exponents[] = { 0, 0.5, 1, 2, 30, 1000 };
@@ -137,6 +162,7 @@ int main(void) {
         cmocka_unit_test(repeated_textures_blend_across_their_edge),
         cmocka_unit_test(colors_are_decoded_before_they_blend),
         cmocka_unit_test(coordinates_are_transformed_first),
+        cmocka_unit_test(the_mean_over_a_triangle_is_that_of_its_middle),
         cmocka_unit_test(lobes_have_the_value_of_their_definition),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
