@@ -121,10 +121,10 @@ static void coordinates_are_transformed_first(void **state) {
  * however finely the triangle is divided. */
 static void the_mean_over_a_triangle_is_that_of_its_middle(void **state) {
     (void)state;
-    static const double places[][3] = { { 0, 3, 1 }, { 2.5, 2.25, 3 }, { 1, 1, 1.001 } };
+    static const double ends[][3] = { { 0, 3, 1 }, { 2.5, 2.25, 3 }, { 1, 1, 1.001 } };
     paint(0);
     for (int k = 0; k < 6; k++) {
-        const double *at = places[k / 2], middle = (at[0] + at[1] + at[2]) / 3;
+        const double *at = ends[k / 2], middle = (at[0] + at[1] + at[2]) / 3;
         const bool rows = k % 2; /* two thirds as far */
         double uv[3][2], rgba[4];
         for (int i = 0; i < 3; i++) {
