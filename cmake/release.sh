@@ -16,11 +16,11 @@ heading() {
     sed -n 's/^## //p' CHANGELOG.md | head -n 1
 }
 
-# notes: prints the text of the changelog's first entry. Links into the tree become their text, because notes are read
+# notes: prints the text of the changelog's first entry. Links into the tree, which may span lines, become their text, because notes are read
 # elsewhere.
 notes() {
     printf '# Lampion %s\n' "$(heading)"
-    awk '/^## / { entries++; next } entries == 1' CHANGELOG.md | sed 's/\[\([^]]*\)\]([^)]*\.md[^)]*)/\1/g'
+    awk '/^## / { entries++; next } entries == 1' CHANGELOG.md | sed -z 's/\[\([^]]*\)\]([^)]*\.md[^)]*)/\1/g'
 }
 
 git rev-parse -q --verify HEAD >/dev/null 2>&1 || fail "this is not a clone of the repository"
