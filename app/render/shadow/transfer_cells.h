@@ -6,17 +6,16 @@
 #include "app/render/shadow/transfer_surfels.h"
 
 typedef struct transfer_cells {
-    const transfer_surfels *surfels;
-    float size;        /* the edge of a cell */
-    uint32_t mask;     /* of hashes */
-    uint32_t *begin;   /* per hash the first of its entries, and their end */
-    uint32_t *entries; /* surfels */
+    const transfer_surfels *surfels; /* in the order of their hashes */
+    float size;                      /* the edge of a cell */
+    uint32_t mask;                   /* of hashes */
+    uint32_t *begin;                 /* per hash the first of its surfels; the last is their end */
 } transfer_cells;
 
-/* Sorts surfels, which must outlive the cells, for searches up to TRANSFER_NEAR spacings away.
- * Returns false if memory ran out; free the cells in any case. */
+/* Puts surfels, which must outlive the cells, into an order for searches up to TRANSFER_NEAR
+ * spacings away. Returns false if memory ran out; free the cells in any case. */
 #define TRANSFER_NEAR 2.2f
-bool transfer_cells_create(const transfer_surfels *surfels, transfer_cells *cells);
+bool transfer_cells_create(transfer_surfels *surfels, transfer_cells *cells);
 void transfer_cells_free(transfer_cells *cells);
 
 /* Finds the surfels within TRANSFER_NEAR spacings of a point whose normals have at least `cosine`

@@ -9,6 +9,9 @@
 /* How much the normals of a surface may differ where a ray hits it, and where links are read. */
 static const float hit_cosine = 0.3f, link_cosine = 0.8f;
 
+/* How many surfels near a point are tried, until it sees one. */
+enum { TRIED_MAX = 12 };
+
 /* Rays along a surface start and end this many spacings off it, because it may be curved. */
 static const float off_surface = 0.02f;
 
@@ -18,18 +21,6 @@ static trace_hit cast(const trace_bvh *bvh, lmp_vec3 from, lmp_vec3 direction) {
     const float origin[3] = { from.x, from.y, from.z };
     const float along[3] = { direction.x, direction.y, direction.z };
     return trace_nearest(bvh, TRACE_LIGHT, origin, along);
-}
-
-void transfer_drop_buried(const scene *world, const trace_bvh *bvh, transfer_surfels *surfels) {
-    const float lift = (float)trace_lift(world), least = 2 * off_surface * surfels->spacing;
-    size_t count = 0;
-    for (size_t i = 0; i < surfels->count; i++) {
-        const lmp_transfer_surfel *at = &surfels->at[i];
-        const lmp_vec3 from = vec_add(at->position, vec_scale(at->normal, lift));
-        if (cast(bvh, from, at->normal).distance >= least)
-            surfels->at[count++] = *at;
-    }
-    surfels->count = count;
 }
 
 /* Returns direction k from a surfel, distributed as the cosine. */
@@ -44,6 +35,57 @@ static lmp_vec3 direction_of(const lmp_transfer_surfel *surfel, size_t index, si
     return vec_add(vec_scale(flat, sqrtf(u)), vec_scale(surfel->normal, sqrtf(1 - u)));
 }
 
+/* What a ray meets: a surface by its front, or what shines on nothing. */
+typedef struct met {
+    float distance; /* INFINITY: nothing */
+    bool front;
+    lmp_vec3 normal; /* towards the ray's start */
+} met;
+
+static met meet(const scene *world, const trace_bvh *bvh, lmp_vec3 from, lmp_vec3 direction) {
+    const trace_hit hit = cast(bvh, from, direction);
+    float corners[3][3];
+    met found = { .distance = INFINITY };
+    if (hit.instance == TRACE_NOTHING)
+        return found;
+    const uint32_t material = scene_instance_material(world, hit.instance);
+    scene_triangle_positions(world, hit.instance, hit.triangle, corners);
+    transfer_face(corners, &found.normal);
+    found.distance = hit.distance;
+    found.front = vec_dot(found.normal, direction) <= 0;
+    if (!found.front) {
+        found.front = world->materials[material].flags & SCENE_DOUBLE_SIDED;
+        found.normal = vec_scale(found.normal, -1);
+    }
+    return found;
+}
+
+/* Whether a surfel is covered closely, or sees mostly the backs of surfaces. */
+static bool is_buried(const scene *world, const trace_bvh *bvh, const transfer_surfels *surfels,
+                      size_t index, float lift) {
+    enum { RAYS = 16 };
+    const lmp_transfer_surfel *surfel = &surfels->at[index];
+    const lmp_vec3 from = vec_add(surfel->position, vec_scale(surfel->normal, lift));
+    const float least = 2 * off_surface * surfels->spacing;
+    int backs = 0;
+    if (!(meet(world, bvh, from, surfel->normal).distance >= least))
+        return true;
+    for (size_t k = 0; k < RAYS; k++) {
+        const met found = meet(world, bvh, from, direction_of(surfel, index, k));
+        backs += isfinite(found.distance) && !found.front;
+    }
+    return backs > RAYS / 2;
+}
+
+void transfer_drop_buried(const scene *world, const trace_bvh *bvh, transfer_surfels *surfels) {
+    const float lift = (float)trace_lift(world);
+    size_t count = 0;
+    for (size_t i = 0; i < surfels->count; i++)
+        if (!is_buried(world, bvh, surfels, i, lift))
+            surfels->at[count++] = surfels->at[i];
+    surfels->count = count;
+}
+
 /* Whether nothing stands between a point of a surface and a surfel. */
 static bool sees(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal, uint32_t surfel) {
     const lmp_transfer_surfel *to = &view->cells->surfels->at[surfel];
@@ -53,33 +95,36 @@ static bool sees(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal, uin
     return cast(view->bvh, from, way).distance >= 1;
 }
 
-uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal) {
-    enum { TRIED = 4 };
-    uint32_t found[TRIED];
-    const size_t count = transfer_cells_find(view->cells, point, normal, hit_cosine, TRIED, found);
-    for (size_t i = 0; i < count; i++)
-        if (sees(view, point, normal, found[i]))
+/* Returns the first of the `tried` nearest surfels that is seen from a point, or else the nearest,
+ * because curved surfaces hide parts of themselves; *seen says which. */
+static uint32_t find_seen(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal, float cosine,
+                          size_t tried, bool *seen) {
+    uint32_t found[TRIED_MAX];
+    const size_t count = transfer_cells_find(view->cells, point, normal, cosine, tried, found);
+    *seen = false;
+    for (size_t i = 0; i < count && !*seen; i++)
+        if ((*seen = sees(view, point, normal, found[i])))
             return found[i];
     return count > 0 ? found[0] : LMP_TRANSFER_NONE;
 }
 
+uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal) {
+    bool seen;
+    uint32_t nearest = find_seen(view, point, normal, hit_cosine, 1, &seen);
+    if (nearest != LMP_TRANSFER_NONE && !seen)
+        nearest = find_seen(view, point, normal, hit_cosine, TRIED_MAX, &seen);
+    if (nearest == LMP_TRANSFER_NONE)
+        nearest = find_seen(view, point, normal, -1, TRIED_MAX, &seen);
+    return nearest;
+}
+
 /* Returns the surfel where a ray ends; none where it sees the back of a single-sided triangle. */
 static uint32_t source_along(const transfer_view *view, lmp_vec3 from, lmp_vec3 direction) {
-    const trace_hit hit = cast(view->bvh, from, direction);
-    float corners[3][3];
-    lmp_vec3 normal;
-    if (hit.instance == TRACE_NOTHING)
+    const met found = meet(view->scene, view->bvh, from, direction);
+    if (!found.front)
         return LMP_TRANSFER_NONE;
-    const uint32_t material = scene_instance_material(view->scene, hit.instance);
-    scene_triangle_positions(view->scene, hit.instance, hit.triangle, corners);
-    transfer_face(corners, &normal);
-    if (vec_dot(normal, direction) > 0) {
-        if (!(view->scene->materials[material].flags & SCENE_DOUBLE_SIDED))
-            return LMP_TRANSFER_NONE;
-        normal = vec_scale(normal, -1);
-    }
-    const lmp_vec3 at = vec_add(from, vec_scale(direction, hit.distance));
-    return transfer_nearest(view, at, normal);
+    const lmp_vec3 at = vec_add(from, vec_scale(direction, found.distance));
+    return transfer_nearest(view, at, found.normal);
 }
 
 /* --- lists ------------------------------------------------------------------------------------ */

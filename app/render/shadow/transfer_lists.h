@@ -6,8 +6,9 @@
 #include "app/render/shadow/transfer_cells.h"
 #include "app/scene/trace/trace.h"
 
-/* Removes the surfels of surfaces that another one covers closely, such as a floor's under a rug:
- * they are dark, and points of the cover would find them nearest. */
+/* Removes the surfels of surfaces that another one covers closely, such as a floor's under a rug,
+ * and of those inside of things, which see mostly backs: they are dark, and points beside them
+ * would find them nearest. */
 void transfer_drop_buried(const scene *world, const trace_bvh *bvh, transfer_surfels *surfels);
 
 /* What the rays of a scene are cast by. */
@@ -18,7 +19,7 @@ typedef struct transfer_view {
 } transfer_view;
 
 /* The hits and links of lmp_transfer_desc. */
-enum { TRANSFER_RAYS = 128, TRANSFER_LINKS = 24 };
+enum { TRANSFER_RAYS = 512, TRANSFER_LINKS = 24 };
 typedef struct transfer_lists {
     uint32_t *hits, *links;
 } transfer_lists;
@@ -27,8 +28,8 @@ typedef struct transfer_lists {
 bool transfer_lists_create(const transfer_view *view, transfer_lists *lists);
 void transfer_lists_free(transfer_lists *lists);
 
-/* Returns the nearest surfel that is seen from a point of a surface, or else the nearest;
- * LMP_TRANSFER_NONE if there is none. */
+/* Returns the nearest surfel that is seen from a point of a surface, one of about the same normal
+ * if there is any; LMP_TRANSFER_NONE if there is none. */
 uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal);
 
 #endif
