@@ -236,10 +236,10 @@ static bool bounce_light(render_job *j, base_error *error) {
         return true;
     const transfer_settings settings = { .bounces = j->options->bounces,
                                          .shadows = j->shadow != NULL,
-                                         .around = &j->around,
-                                         .before = j->frame.shadow };
+                                         .around = &j->around };
     j->bounces = render_device_transfer(&j->device, &settings, error);
-    j->frame.shadow = transfer_pass(j->bounces);
+    if (j->bounces)
+        j->frame.bounces = transfer_bounces(j->bounces);
     return j->bounces != NULL;
 }
 

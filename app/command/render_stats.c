@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SHADE = 2, PASSES = 6 };
+enum { SHADE = 2, PASSES = 7 };
 
 /* Measures the median of each pass over the repetitions of one method, after a frame to warm up. */
 static bool measure(render_job *j, method_kind method, double medians[PASSES], base_error *error) {
@@ -25,7 +25,8 @@ static bool measure(render_job *j, method_kind method, double medians[PASSES], b
              renderer_read_rgb8(j->renderer, &j->display, rgb8, &times, error);
         if (ok) {
             const double passes[PASSES] = { times.surfaces, times.transfer, times.shade,
-                                            times.shadow,   times.tone,     times.total };
+                                            times.shadow,   times.bounces,  times.tone,
+                                            times.total };
             for (int p = 0; p < PASSES; p++)
                 samples[p][i] = passes[p];
         }
@@ -46,8 +47,8 @@ static bool compared(const render_job *j, method_kind method) {
 }
 
 static json_t *passes_to_json(const double medians[PASSES]) {
-    static const char *const names[PASSES] = { "gbuffer", "transfer", "shade",
-                                               "shadow",  "tonemap",  "total" };
+    static const char *const names[PASSES] = { "gbuffer", "transfer", "shade", "shadow",
+                                               "bounces", "tonemap",  "total" };
     json_t *passes = json_object();
     for (int p = 0; p < PASSES; p++)
         passes = file_json_with(passes, names[p], file_json_real(medians[p]));
@@ -113,13 +114,12 @@ static json_t *shadows_to_json(const render_job *j) {
 
 static json_t *bounces_to_json(const render_job *j) {
     const transfer_statistics s = transfer_describe(j->bounces);
-    return json_pack("{s:i, s:I, s:o, s:I, s:o, s:o, s:o, s:o}", "bounces", j->options->bounces,
+    return json_pack("{s:i, s:I, s:o, s:I, s:o, s:o, s:o}", "bounces", j->options->bounces,
                      "surfels", (json_int_t)s.surfels, "spacing", file_json_float(s.spacing),
                      "bytes", (json_int_t)s.bytes, "create_milliseconds",
                      file_json_real(s.create_milliseconds), "light_milliseconds",
                      file_json_real(s.light_milliseconds), "bounce_milliseconds",
-                     file_json_real(s.bounce_milliseconds), "read_milliseconds",
-                     file_json_real(s.read_milliseconds));
+                     file_json_real(s.bounce_milliseconds));
 }
 
 /* Measures the median shading time of frames with resting lights and a moving camera: the field

@@ -11,6 +11,7 @@
 struct render_frame;
 typedef struct render_surfaces render_surfaces; /* surfaces.h */
 typedef struct render_rectangle render_rectangle;
+typedef struct render_tile render_tile;
 typedef struct shade_field shade_field; /* app/render/shade_field.h */
 
 /* Shades surfaces: rgba receives the radiance of their pixels, rows from the top; the fourth value
@@ -47,6 +48,18 @@ typedef struct render_pass {
     const render_tiled_pass *tiled; /* how to work tile by tile, or NULL */
 } render_pass;
 
+/* The light that surfaces reflect to each other. */
+typedef struct render_bounces {
+    /* Follows the lights of a frame; called before the first of its samples. */
+    bool (*begin)(void *user, const struct render_frame *frame, base_error *error);
+    /* Fills the planes of bounced light of a rectangle of at most RENDER_TILE pixels a side, except
+     * where a pixel is the same as in the first sample. May be called from any thread, each with a
+     * tile of its own for RENDER_TILE_PIXELS. */
+    void (*fill)(const void *user, const render_surfaces *surfaces, const render_rectangle *pixels,
+                 render_tile *tile);
+    void *user;
+} render_bounces;
+
 /* Returns a frame's field for shaders: its lists and, if `nodes` is true, all its nodes are up to
  * date with the frame's lights. *stamp receives a number above 0 that changes whenever the field
  * does. Returns NULL on failure. */
@@ -69,6 +82,7 @@ typedef struct render_frame {
     render_whole_field whole_field;      /* returns the field for shaders that read it */
     render_shader cpu_shader; /* shades the GPU's surfaces in place of shaders; or NULL */
     render_pass shadow;       /* after shading; zero: none */
+    render_bounces bounces;   /* zero: none */
     bool keep_geometry;     /* keep it, and draw only lights if the last frame had the same view */
     float samples_exposure; /* the exposure that the mean is weighted for; 0: the plain mean */
 } render_frame;
@@ -83,6 +97,7 @@ typedef struct render_times {
     double shade, tone, total;
     double transfer; /* pixels to the CPU and back, part of the total */
     double shadow;   /* of render_frame.shadow */
+    double bounces;  /* reading bounced light; the update is timed by its owner */
 } render_times;
 
 #endif

@@ -86,6 +86,15 @@ bool render_surfaces_keep_smooth(render_surfaces *s) {
     return s->smooth;
 }
 
+bool render_surfaces_keep_bounced(render_surfaces *s) {
+    const size_t count = (size_t)s->width * (size_t)s->height;
+    if (!s->bounced[0])
+        s->bounced[0] = memory_large(3 * count * sizeof *s->bounced[0]);
+    for (size_t c = 1; c < 3 && s->bounced[0]; c++)
+        s->bounced[c] = s->bounced[0] + c * count;
+    return s->bounced[0];
+}
+
 bool render_surfaces_share(render_surfaces *s) {
     if (!s->same)
         s->same = calloc((size_t)s->width * (size_t)s->height, sizeof *s->same);
@@ -103,6 +112,7 @@ void render_surfaces_free(render_surfaces *s) {
     free(s->same);
     free(s->smooth);
     free(s->hits);
+    free(s->bounced[0]);
     free(s->memory);
     memset(s, 0, sizeof *s);
 }
@@ -170,6 +180,17 @@ bool render_tiles_visit(int width, int height, render_tile_user *use, void *user
     return ok;
 }
 
+static void fill_bounced(const render_rectangle *pixels, render_tile *tile, void *user) {
+    const render_surfaces *s = user;
+    s->frame->bounces.fill(s->frame->bounces.user, s, pixels, tile);
+}
+
+bool render_surfaces_fill_bounced(const render_surfaces *s) {
+    render_surfaces planes = *s;
+    return !s->frame->bounces.fill ||
+           render_tiles_visit(s->width, s->height, fill_bounced, &planes);
+}
+
 static lmp_rgb light_of(const render_surfaces *s, uint32_t number) {
     return number < s->frame->light_count ? s->frame->lights[number].emitter.radiance
                                           : (lmp_rgb) { 0, 0, 0 };
@@ -218,6 +239,13 @@ static bool are_alike(const render_surfaces *s, size_t a, size_t b) {
            render_surfaces_owner(s, a)->specular[a] == render_surfaces_owner(s, b)->specular[b];
 }
 
+static void fill_emission(const render_surfaces *s, size_t pixel, size_t at, render_tile *tile) {
+    const lmp_rgb emission = render_surfaces_emission(s, pixel);
+    tile->emission[0][at] = emission.r;
+    tile->emission[1][at] = emission.g;
+    tile->emission[2][at] = emission.b;
+}
+
 static void fill_surface(const render_surfaces *s, size_t pixel, size_t at, render_tile *tile) {
     lmp_material *material = &tile->material[at];
     material->base_color = color_at(s->base, pixel);
@@ -248,10 +276,9 @@ static void fill_span(const render_surfaces *s, size_t first, size_t count, size
         tile->kind[to] = (unsigned char)kind_of(s->seen[pixel]);
         if (tile->kind[to] != RENDER_SURFACE)
             continue;
-        for (int c = 0; c < 3; c++) {
+        for (int c = 0; c < 3; c++)
             tile->normal[c][to] = own->normal[c][pixel];
-            tile->emission[c][to] = own->emission[c][pixel];
-        }
+        fill_emission(own, pixel, to, tile);
         if (i > 0 && are_alike(s, pixel, pixel - 1))
             tile->material[to] = tile->material[to - 1];
         else
@@ -282,8 +309,8 @@ void render_surfaces_outline(const render_surfaces *s, const render_rectangle *p
             for (int c = 0; c < 3; c++) {
                 tile->position[c][at] = s->position[c][i];
                 tile->normal[c][at] = from->normal[c][i];
-                tile->emission[c][at] = from->emission[c][i];
             }
+            fill_emission(from, i, at, tile);
         }
     }
 }
@@ -314,11 +341,11 @@ void render_surfaces_pick(const render_surfaces *s, const uint32_t *pixels, size
     for (int c = 0; c < 3; c++) {
         pick_plane(s->position[c], pixels, count, tile->position[c]);
         pick_plane(s->normal[c], pixels, count, tile->normal[c]);
-        pick_plane(s->emission[c], pixels, count, tile->emission[c]);
     }
     for (size_t i = 0; i < count; i++) {
         const size_t pixel = pixels[i];
         tile->kind[i] = RENDER_SURFACE;
+        fill_emission(s, pixel, i, tile);
         if (i > 0 && are_alike(s, pixel, pixels[i - 1]))
             tile->material[i] = tile->material[i - 1];
         else

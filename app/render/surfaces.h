@@ -33,6 +33,7 @@ struct render_surfaces {
     float *tint[3];                                /* a factor on F0 */
     float *sheen[3], *sheen_roughness;
     float *transmitted[3]; /* color of transmitted light, as seen through a coat */
+    float *bounced[3];     /* radiance that surfaces reflect of each other's light; or NULL */
     float *weight; /* NULL, or in a scene with blended surfaces the weight of a sample that has met
                       one, and 0 elsewhere (app/scene/trace/blend.h) */
     trace_hit *hits;  /* also behind lights; NULL for a G-buffer, or if not requested */
@@ -54,10 +55,11 @@ size_t render_surfaces_values(int width, int height, const render_materials *mat
 void render_surfaces_lay(float *memory, int width, int height, const render_materials *materials,
                          render_surfaces *surfaces);
 
-/* Allocate the plane of hits, or of normals, for whoever fills the planes to keep. Return false if
- * memory ran out. */
+/* Allocate the plane of hits, or of normals, for whoever fills the planes to keep, or those of
+ * bounced light. Return false if memory ran out. */
 bool render_surfaces_keep_hits(render_surfaces *surfaces);
 bool render_surfaces_keep_smooth(render_surfaces *surfaces);
+bool render_surfaces_keep_bounced(render_surfaces *surfaces);
 
 /* Allocates `same`, so that pixels may be left to `first`, which is to be set. Returns false if
  * memory ran out. */
@@ -102,8 +104,9 @@ render_rectangle render_tile_at(int width, int height, int number);
 typedef enum render_kind { RENDER_NONE, RENDER_LIGHT, RENDER_SURFACE } render_kind;
 
 /* Pixels side by side in the library's form. For a kind other than RENDER_SURFACE the other members
- * are not set; for a surface, radiance = emission + what lmp_shade gives. */
-typedef struct render_tile {
+ * are not set; for a surface, radiance = emission + what lmp_shade gives, where bounced light
+ * counts as emission. */
+struct render_tile {
     unsigned char *kind; /* render_kind */
     float *position[3], *normal[3], *view[3];
     float *coat_normal[3]; /* if the surfaces are layered */
@@ -112,7 +115,7 @@ typedef struct render_tile {
     float *transmitted[3];
     float *ambient;
     lmp_material *material;
-} render_tile;
+};
 bool render_tile_create(int pixels, render_tile *tile);
 void render_tile_free(render_tile *tile);
 
@@ -130,6 +133,10 @@ void render_surfaces_tile(const render_surfaces *surfaces, int x, int y, int wid
 void render_surfaces_outline(const render_surfaces *surfaces, const render_rectangle *pixels,
                              render_tile *tile);
 
+/* Fills the planes of bounced light, on all cores, if the frame has any. Returns false if memory
+ * ran out. */
+bool render_surfaces_fill_bounced(const render_surfaces *surfaces);
+
 /* Returns the radiance of the light or background that a pixel without a surface sees. */
 lmp_rgb render_surfaces_beyond(const render_surfaces *surfaces, int x, int y);
 
@@ -141,9 +148,13 @@ void render_surfaces_pick(const render_surfaces *surfaces, const uint32_t *pixel
  * are. */
 size_t render_surfaces_positions(const render_surfaces *surfaces, int y, render_tile *tile);
 
-/* Returns what the surface of a pixel, by its index, emits. */
+/* Returns the radiance of a pixel's surface, by its index in the planes that hold it, that does not
+ * come from lights directly: its emission and bounced light. */
 static inline lmp_rgb render_surfaces_emission(const render_surfaces *s, size_t pixel) {
-    return (lmp_rgb) { s->emission[0][pixel], s->emission[1][pixel], s->emission[2][pixel] };
+    float sum[3];
+    for (int c = 0; c < 3; c++)
+        sum[c] = s->emission[c][pixel] + (s->bounced[c] ? s->bounced[c][pixel] : 0);
+    return (lmp_rgb) { sum[0], sum[1], sum[2] };
 }
 
 #endif

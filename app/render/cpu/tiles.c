@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SURFACES, SHADE, SHADOW, STEPS }; /* steps whose time is measured */
-enum { HELD = 5 };                       /* planes that are kept: what is seen, emission, weights */
+enum { SURFACES, BOUNCES, SHADE, SHADOW, STEPS }; /* steps whose time is measured */
+enum { HELD = 5 }; /* planes that are kept: what is seen, emission, weights */
 
 /* The job of one frame. */
 typedef struct tiles_job {
@@ -57,6 +57,8 @@ static tile_work *open_work(const tiles_job *job) {
         (!job->pass || render_surfaces_keep_hits(&w->surfaces)) &&
         render_surfaces_create(RENDER_TILE, RENDER_TILE, materials, &w->first) &&
         render_surfaces_keep_smooth(&w->first) &&
+        (!job->drawing->frame->bounces.fill ||
+         (render_surfaces_keep_bounced(&w->surfaces) && render_surfaces_keep_bounced(&w->first))) &&
         render_tile_create(RENDER_TILE_PIXELS, &w->tile) &&
         (!job->pass || (w->pass = job->pass->open(job->drawing->frame->shadow.user))))
         return w;
@@ -90,6 +92,10 @@ static const render_surfaces *draw_sample(const tiles_job *job, int sample, tile
     cpu_set_planes(d, &job->cameras[sample], s);
     cpu_rays_fill(&d->view, &at->pixels, later ? &at->first : NULL, s);
     note_time(w, SURFACES);
+    const render_bounces *bounces = &d->frame->bounces;
+    if (bounces->fill)
+        bounces->fill(bounces->user, s, &at->pixels, &w->tile);
+    note_time(w, BOUNCES);
     shade_tile(job->shade, s, later ? &before : NULL, &at->pixels, &w->tile, rgba);
     if (!later && d->samples > 1)
         cpu_shared_mark(s, rgba, &at->pixels);
@@ -166,7 +172,8 @@ static bool size_kept(const cpu_drawing *d, cpu_tiles *t) {
     const size_t pixels = (size_t)count * RENDER_TILE_PIXELS;
     const size_t planes =
         d->samples > 1 ? render_surfaces_values(RENDER_TILE, RENDER_TILE, d->materials) : 0;
-    if (t->count == count && t->planes == planes)
+    const bool bounces = d->frame->bounces.fill;
+    if (t->count == count && t->planes == planes && t->bounces == bounces)
         return true;
     cpu_tiles_free(t);
     t->first_rgba = memory_large(4 * pixels * sizeof *t->first_rgba);
@@ -174,20 +181,23 @@ static bool size_kept(const cpu_drawing *d, cpu_tiles *t) {
     if (planes > 0) {
         t->first = memory_large((size_t)count * planes * sizeof *t->first);
         t->smooth = memory_large(pixels * sizeof *t->smooth);
+        t->bounced = memory_large((bounces ? 3 * pixels : 1) * sizeof *t->bounced);
         t->rgba = memory_large(4 * pixels * sizeof *t->rgba);
         t->sums = memory_large(4 * pixels * sizeof *t->sums);
     }
     if (!t->first_rgba || !t->held ||
-        (planes > 0 && (!t->first || !t->smooth || !t->rgba || !t->sums)))
+        (planes > 0 && (!t->first || !t->smooth || !t->bounced || !t->rgba || !t->sums)))
         return false;
     t->count = count;
     t->planes = planes;
+    t->bounces = bounces;
     return true;
 }
 
 void cpu_tiles_free(cpu_tiles *t) {
     free(t->first);
     free(t->smooth);
+    free(t->bounced);
     free(t->first_rgba);
     free(t->held);
     free(t->rgba);
@@ -218,6 +228,8 @@ static tile_place place_of(const tiles_job *job, int number, const tile_work *w)
                         job->drawing->materials, &at.first);
     cpu_set_planes(job->drawing, &job->cameras[0], &at.first);
     at.first.smooth = t->smooth + before;
+    for (size_t c = 0; t->bounces && c < 3; c++)
+        at.first.bounced[c] = t->bounced + 3 * before + c * RENDER_TILE_PIXELS;
     at.rgba = t->rgba + 4 * before;
     at.sums = t->sums + 4 * before;
     return at;
@@ -231,8 +243,10 @@ static void hold(const render_surfaces *s, const render_rectangle *pixels, rende
             held->seen[i] = s->seen[i];
             if (held->weight)
                 held->weight[i] = s->weight[i];
-            for (int c = 0; c < 3; c++)
-                held->emission[c][i] = from->emission[c][i];
+            const lmp_rgb emission = render_surfaces_emission(from, i);
+            held->emission[0][i] = emission.r;
+            held->emission[1][i] = emission.g;
+            held->emission[2][i] = emission.b;
         }
 }
 
@@ -281,9 +295,9 @@ typedef enum tiles_step { ALL, LOOK, CHANGE } tiles_step;
 static bool run(const tiles_job *job, tiles_step step, int sample, int end, render_times *times) {
     const int count = render_tile_count(job->drawing->frame->width, job->drawing->frame->height);
     const double start = timing_now();
-    double surfaces = 0, shade = 0, shadow = 0;
+    double surfaces = 0, bounces = 0, shade = 0, shadow = 0;
     bool ok = true;
-#pragma omp parallel reduction(&& : ok) reduction(+ : surfaces, shade, shadow)
+#pragma omp parallel reduction(&& : ok) reduction(+ : surfaces, bounces, shade, shadow)
     {
         tile_work *work = open_work(job);
         ok = work != NULL;
@@ -301,15 +315,17 @@ static bool run(const tiles_job *job, tiles_step step, int sample, int end, rend
         }
         if (work) {
             surfaces += work->seconds[SURFACES];
+            bounces += work->seconds[BOUNCES];
             shade += work->seconds[SHADE];
             shadow += work->seconds[SHADOW];
         }
         close_work(job, work);
     }
-    const double sum = surfaces + shade + shadow;
+    const double sum = surfaces + bounces + shade + shadow;
     if (ok && times && sum > 0) { /* scales the threads' sums to the time that passed */
         const double scale = 1e3 * (timing_now() - start) / sum;
         times->surfaces += scale * surfaces;
+        times->bounces += scale * bounces;
         times->shade += scale * shade;
         times->shadow += scale * shadow;
     }

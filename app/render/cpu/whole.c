@@ -35,6 +35,8 @@ static bool size_planes(cpu_whole *w, const cpu_drawing *d, bool keep, base_erro
         ((!d->frame->shadow.run && !d->frame->keep_geometry) ||
          (render_surfaces_keep_hits(&w->surfaces) &&
           (!keep || render_surfaces_keep_hits(&w->first)))) &&
+        (!d->frame->bounces.fill || (render_surfaces_keep_bounced(&w->surfaces) &&
+                                     (!keep || render_surfaces_keep_bounced(&w->first)))) &&
         (!keep || render_surfaces_keep_smooth(&w->first));
     if (!ok)
         cpu_whole_free(w);
@@ -102,6 +104,9 @@ static bool draw_sample(cpu_whole *w, const cpu_drawing *d, int index, bool keep
     const double start = timing_now();
     find_surfaces(w, d, &camera, keep && !kept ? &w->first : NULL, s);
     const double found = timing_now();
+    if (!render_surfaces_fill_bounced(s))
+        return base_fail(error, NULL, "out of memory");
+    const double bounced = timing_now();
     shade_job *job = shade_begin(frame, s);
     const shade_sample before = { &w->first, w->first_rgba };
     const bool ok = job && shade_tiles(job, s, keep && !kept ? &before : NULL, rgba);
@@ -117,7 +122,8 @@ static bool draw_sample(cpu_whole *w, const cpu_drawing *d, int index, bool keep
         return false;
     if (times) {
         times->surfaces += 1e3 * (found - start);
-        times->shade += 1e3 * (shaded - found);
+        times->bounces += 1e3 * (bounced - found);
+        times->shade += 1e3 * (shaded - bounced);
         times->shadow += 1e3 * (timing_now() - shaded);
     }
     return true;

@@ -30,8 +30,8 @@ bool gpu_read_rgb8(gpu_renderer *r, const image_display *display, unsigned char 
     if (times) {
         gpu_clock_mark(&r->clock, 4);
         times->tone = gpu_clock_marked(&r->clock, 4) - gpu_clock_marked(&r->clock, 3);
-        times->total =
-            times->surfaces + times->shade + times->shadow + times->transfer + times->tone;
+        times->total = times->surfaces + times->shade + times->shadow + times->bounces +
+                       times->transfer + times->tone;
     }
     const size_t size = 3 * (size_t)r->targets.width * (size_t)r->targets.height;
     if (size > INT32_MAX)

@@ -163,6 +163,13 @@ void gpu_set_environment(gpu_renderer *r, const environment *e) {
 
 /* --- a frame ---------------------------------------------------------------------------------- */
 
+/* Adds bounced light to what shaders have computed. */
+static void add_bounced(const render_surfaces *s, float *rgba) {
+    for (size_t i = 0; s->bounced[0] && i < (size_t)s->width * (size_t)s->height; i++)
+        for (size_t c = 0; c < 3 && s->seen[i] < RENDER_SEES_LIGHT; c++)
+            rgba[4 * i + c] += s->bounced[c][i];
+}
+
 /* Shades on the CPU: reads the G-buffer and uploads the radiance. */
 static bool shade_on_cpu(gpu_renderer *r, const render_frame *frame, const render_camera *camera,
                          render_times *times, base_error *error) {
@@ -170,24 +177,31 @@ static bool shade_on_cpu(gpu_renderer *r, const render_frame *frame, const rende
     if (!gpu_gbuffer_read(&r->targets, &r->materials, r->environment.source, camera,
                           gpu_depth_reach(&r->bounds, camera), frame, &r->gbuffer, error))
         return false;
+    render_surfaces *const s = &r->gbuffer.surfaces;
     float *const rgba = &r->gbuffer.rgba[0][0];
     if (!frame->cpu_shader)
         glGetTextureImage(
             r->targets.hdr, 0, GL_RGBA, GL_FLOAT,
             (GLsizei)((size_t)r->targets.width * (size_t)r->targets.height * sizeof(vec4)), rgba);
     const double read = 1e3 * timing_now();
-    if (frame->cpu_shader && !frame->cpu_shader(frame, &r->gbuffer.surfaces, rgba, error))
+    if (frame->bounces.fill &&
+        !(render_surfaces_keep_bounced(s) && render_surfaces_fill_bounced(s)))
+        return base_fail(error, NULL, "out of memory");
+    if (!frame->cpu_shader)
+        add_bounced(s, rgba);
+    const double bounced = 1e3 * timing_now();
+    if (frame->cpu_shader && !frame->cpu_shader(frame, s, rgba, error))
         return false;
     const double shaded = 1e3 * timing_now();
-    if (frame->shadow.run &&
-        !frame->shadow.run(frame->shadow.user, frame, &r->gbuffer.surfaces, rgba, error))
+    if (frame->shadow.run && !frame->shadow.run(frame->shadow.user, frame, s, rgba, error))
         return false;
     const double shadowed = 1e3 * timing_now();
     glTextureSubImage2D(r->targets.hdr, 0, 0, 0, r->targets.width, r->targets.height, GL_RGBA,
                         GL_FLOAT, rgba);
     if (times) {
         glFinish();
-        times->shade += shaded - read;
+        times->bounces += bounced - read;
+        times->shade += shaded - bounced;
         times->shadow += shadowed - shaded;
         times->transfer += read - start + 1e3 * timing_now() - shadowed;
     }
@@ -216,7 +230,7 @@ static bool render_sample(gpu_renderer *r, const render_frame *frame, int index,
         times->shade +=
             frame->cpu_shader ? 0 : gpu_clock_marked(&r->clock, 2) - gpu_clock_marked(&r->clock, 1);
     }
-    return (!frame->cpu_shader && !frame->shadow.run) ||
+    return (!frame->cpu_shader && !frame->shadow.run && !frame->bounces.fill) ||
            shade_on_cpu(r, frame, &camera, times, error);
 }
 
@@ -303,7 +317,8 @@ static bool render_samples(gpu_renderer *r, const render_frame *frame, int first
             gpu_resolve(r, frame, i, show);
     }
     if (times)
-        times->total = times->surfaces + times->shade + times->shadow + times->transfer;
+        times->total =
+            times->surfaces + times->shade + times->shadow + times->bounces + times->transfer;
     return true;
 }
 

@@ -138,6 +138,11 @@ void renderer_set_environment(any_renderer *r, const environment *around) {
         cpu_set_environment(r->cpu, around);
 }
 
+/* Lets the bounces of a frame, if it has any, follow its lights. */
+static bool begin_bounces(const render_frame *frame, base_error *error) {
+    return !frame->bounces.begin || frame->bounces.begin(frame->bounces.user, frame, error);
+}
+
 /* --- exposure --------------------------------------------------------------------------------- */
 
 enum { METER_PIXELS = 192 * 108 };
@@ -173,7 +178,8 @@ bool renderer_meter(any_renderer *r, const render_frame *frame, image *pixels, b
         hidden[i].hidden = 1;
     }
     small.lights = hidden;
-    bool ok = image_create(pixels, small.width, small.height, error);
+    bool ok =
+        begin_bounces(&small, error) && image_create(pixels, small.width, small.height, error);
     small.shadow = (render_pass) { .run = keep_lit, .user = pixels };
     if (ok && !(r->gl ? gpu_render(r->gl, &small, NULL, error)
                       : cpu_render(r->cpu, &small, 1, NULL, error))) {
@@ -198,6 +204,8 @@ bool renderer_draw(any_renderer *r, const render_frame *frame, render_times *tim
         metered.samples_exposure = r->meter.run(r->meter.user, &pixels);
         image_free(&pixels);
     }
+    if (!begin_bounces(frame, error))
+        return false;
     return r->gl ? gpu_render(r->gl, &metered, times, error)
                  : cpu_render(r->cpu, &metered, frame->samples > 1 ? frame->samples : 1, times,
                               error);
@@ -205,6 +213,8 @@ bool renderer_draw(any_renderer *r, const render_frame *frame, render_times *tim
 
 bool renderer_refine(any_renderer *r, const render_frame *frame, int index, render_times *times,
                      base_error *error) {
+    if (!begin_bounces(frame, error))
+        return false;
     return r->gl ? gpu_refine(r->gl, frame, index, times, error)
                  : cpu_refine(r->cpu, frame, index, times, error);
 }

@@ -15,7 +15,6 @@ typedef struct transfer_settings {
     int bounces;               /* 1 … TRANSFER_BOUNCES_MAX */
     bool shadows;              /* whether surfaces hide lights from surfels */
     const environment *around; /* NULL: none; must outlive the transfer */
-    render_pass before;        /* the pass of shadows, which runs first; zero: none */
 } transfer_settings;
 #define TRANSFER_BOUNCES_MAX 1000
 
@@ -25,8 +24,8 @@ transfer *transfer_create(const scene *world, const trace_bvh *bvh,
                           const transfer_settings *settings, base_error *error);
 void transfer_destroy(transfer *transfer);
 
-/* Returns the pass that adds bounced light to a frame, after the pass of its settings. */
-render_pass transfer_pass(transfer *transfer);
+/* Returns what a frame needs to be drawn with bounced light; zero in a scene without surfaces. */
+render_bounces transfer_bounces(transfer *transfer);
 
 typedef struct transfer_statistics {
     size_t surfels, bytes;      /* of the library's transfer */
@@ -34,7 +33,6 @@ typedef struct transfer_statistics {
     double create_milliseconds; /* surfels and their rays, once */
     double light_milliseconds;  /* direct light of surfels, where lights have moved */
     double bounce_milliseconds; /* all bounces */
-    double read_milliseconds;   /* of the last sample's surfaces */
 } transfer_statistics;
 transfer_statistics transfer_describe(const transfer *transfer);
 

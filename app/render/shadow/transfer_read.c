@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/shadow/transfer_read.h"
+
+#include "app/scene/vector.h"
+
+#include <lampion/probe.h>
+#include <lampion/shade.h>
+
+#include <string.h>
+
+/* Irradiance is read at pixels so far apart, and interpolated between them; nearer where what they
+ * show differs. */
+enum { APART = 8, APART_LEAST = 2 };
+
+/* How much the irradiance of such pixels may differ for others to be interpolated: all of them are
+ * read where it changes faster, as where surfaces meet. */
+static const float contrast = 0.2f;
+
+/* A pixel of the tile that shows no surface to read. */
+#define UNLISTED UINT16_MAX
+
+/* The pixels of a rectangle that are read. */
+typedef struct reading {
+    const transfer_view *view;
+    const lmp_transfer *transfer;
+    const render_tile *tile; /* holds them, one after another */
+    int width, height;
+    size_t count;
+    uint32_t pixels[RENDER_TILE_PIXELS]; /* in the planes */
+    uint16_t number[RENDER_TILE_PIXELS]; /* of each pixel of the rectangle, or UNLISTED */
+    bool known[RENDER_TILE_PIXELS];
+    lmp_rgb irradiance[RENDER_TILE_PIXELS];
+} reading;
+
+/* Lists the pixels that show a surface of their own, and clears the planes of the others. */
+static void list_pixels(const render_surfaces *s, const render_rectangle *pixels, reading *r) {
+    r->width = pixels->width;
+    r->height = pixels->height;
+    r->count = 0;
+    memset(r->known, 0, sizeof r->known);
+    for (int i = 0; i < pixels->width * pixels->height; i++) {
+        const int x = pixels->x + i % pixels->width, y = pixels->y + i / pixels->width;
+        const size_t pixel = render_surfaces_at(s, x, y);
+        r->number[i] = UNLISTED;
+        if (render_surfaces_same(s, pixel))
+            continue;
+        if (s->seen[pixel] < RENDER_SEES_LIGHT) {
+            r->number[i] = (uint16_t)r->count;
+            r->pixels[r->count++] = (uint32_t)pixel;
+        } else
+            s->bounced[0][pixel] = s->bounced[1][pixel] = s->bounced[2][pixel] = 0;
+    }
+}
+
+/* --- irradiance ------------------------------------------------------------------------------- */
+
+static lmp_vec3 vector_at(float *const planes[3], size_t i) {
+    return vec(planes[0][i], planes[1][i], planes[2][i]);
+}
+
+/* Returns the irradiance of a listed pixel, read from surfels. */
+static lmp_rgb read_pixel(reading *r, size_t i) {
+    if (!r->known[i]) {
+        const lmp_vec3 point = vector_at(r->tile->position, i),
+                       normal = vector_at(r->tile->normal, i);
+        const uint32_t nearest = transfer_nearest(r->view, point, normal);
+        r->irradiance[i] = nearest == LMP_TRANSFER_NONE
+                               ? (lmp_rgb) { 0, 0, 0 }
+                               : lmp_transfer_irradiance(r->transfer, nearest, point, normal);
+        r->known[i] = true;
+    }
+    return r->irradiance[i];
+}
+
+/* Whether two pixels lie on the same smooth surface, no further apart than its surfels. */
+static bool are_beside(const reading *r, size_t i, size_t k) {
+    const float spacing = r->view->cells->surfels->spacing;
+    const lmp_vec3 normal = vector_at(r->tile->normal, i);
+    const lmp_vec3 away = vec_sub(vector_at(r->tile->position, k), vector_at(r->tile->position, i));
+    return vec_dot(away, away) <= spacing * spacing &&
+           fabsf(vec_dot(away, normal)) <= 0.1f * spacing &&
+           vec_dot(normal, vector_at(r->tile->normal, k)) >= 0.95f;
+}
+
+static bool differ(float a, float b) {
+    return fabsf(a - b) > contrast * fmaxf(a, b);
+}
+
+/* A square of pixels around one, and which of its corners lie on the same surface as that one. */
+typedef struct square {
+    int count;
+    size_t corner[4]; /* as listed */
+    float weight[4];  /* by how near the pixel is to it */
+} square;
+
+/* Returns how near a pixel is to the last pixel of its square along an axis, 0 … 1, where a square
+ * has its first pixel at *first. */
+static float find_side(int at, int size, int end, int *first, int *last) {
+    *first = at / size * size;
+    *last = *first + size < end ? *first + size : end - 1;
+    return *last > *first ? (float)(at - *first) / (float)(*last - *first) : 0;
+}
+
+static square find_square(const reading *r, int x, int y, int size) {
+    const size_t pixel = r->number[y * r->width + x];
+    int left, right, top, bottom;
+    const float along = find_side(x, size, r->width, &left, &right),
+                down = find_side(y, size, r->height, &top, &bottom);
+    square q = { .count = 0 };
+    for (int i = 0; i < 4; i++) {
+        const int column = i & 1 ? right : left, row = i & 2 ? bottom : top;
+        const uint16_t corner = r->number[row * r->width + column];
+        if (corner != UNLISTED && are_beside(r, pixel, corner)) {
+            q.weight[q.count] = (i & 1 ? along : 1 - along) * (i & 2 ? down : 1 - down);
+            q.corner[q.count++] = corner;
+        }
+    }
+    return q;
+}
+
+/* Interpolates between the corners of a square; returns false if they differ too much. */
+static bool interpolate(reading *r, const square *q, lmp_rgb *irradiance) {
+    const lmp_rgb first = read_pixel(r, q->corner[0]);
+    lmp_rgb sum = { 0, 0, 0 };
+    float weights = 0;
+    for (int i = 0; i < q->count; i++) {
+        const lmp_rgb e = read_pixel(r, q->corner[i]);
+        const float weight = q->weight[i] + 1e-3f; /* should only far corners be on the surface */
+        if (differ(first.r, e.r) || differ(first.g, e.g) || differ(first.b, e.b))
+            return false;
+        sum.r += weight * e.r;
+        sum.g += weight * e.g;
+        sum.b += weight * e.b;
+        weights += weight;
+    }
+    *irradiance = rgb_scale(sum, 1 / weights);
+    return true;
+}
+
+/* Finds the irradiance of a listed pixel: in the largest square of which two corners are on its
+ * surface, or one of the smallest. */
+static lmp_rgb irradiance_of(reading *r, int x, int y) {
+    const size_t pixel = r->number[y * r->width + x];
+    lmp_rgb irradiance;
+    for (int size = APART; size >= APART_LEAST && !r->known[pixel]; size /= 2) {
+        const square q = find_square(r, x, y, size);
+        if (q.count >= (size > APART_LEAST ? 2 : 1) && interpolate(r, &q, &irradiance) &&
+            !r->known[pixel])
+            return irradiance;
+    }
+    return read_pixel(r, pixel);
+}
+
+/* Finds the irradiance of all listed pixels. */
+static void find_irradiance(reading *r) {
+    for (int y = 0; y < r->height; y++)
+        for (int x = 0; x < r->width; x++) {
+            const uint16_t i = r->number[y * r->width + x];
+            if (i != UNLISTED)
+                r->irradiance[i] = irradiance_of(r, x, y);
+        }
+}
+
+/* --- what surfaces reflect of it -------------------------------------------------------------- */
+
+/* Computes the radiance that the listed pixels reflect of an even light whose irradiance is pi. */
+static void reflect(const render_surfaces *s, const reading *r, lmp_rgb *reflected) {
+    static const float white[3] = { 3.5449077f, 3.5449077f, 3.5449077f }; /* 2 sqrt(pi) */
+    const lmp_environment even = { white, 1 };
+    const render_frame *frame = s->frame;
+    const lmp_shade_settings settings = { .method = method_table[frame->method].method,
+                                          .bands = frame->bands,
+                                          .window = frame->window,
+                                          .lobe = frame->lobes };
+    float *const *const p = r->tile->position, *const *const n = r->tile->normal,
+                        *const *const v = r->tile->view, *const *const coat = r->tile->coat_normal;
+    lmp_surfaces surfaces = {
+        .position = { p[0], p[1], p[2], sizeof(float) },
+        .normal = { n[0], n[1], n[2], sizeof(float) },
+        .view = { v[0], v[1], v[2], sizeof(float) },
+        .material = r->tile->material,
+        .material_stride = sizeof *r->tile->material,
+    };
+    if (s->layered)
+        surfaces.coat_normal = (lmp_vec3_array) { coat[0], coat[1], coat[2], sizeof(float) };
+    lmp_shade_environment_n(&settings, &surfaces, r->count, &even, lmp_rgb_array_of(reflected));
+}
+
+void transfer_read(const transfer_view *view, const lmp_transfer *transfer,
+                   const render_surfaces *s, const render_rectangle *pixels, render_tile *tile) {
+    reading r = { .view = view, .transfer = transfer, .tile = tile };
+    lmp_rgb reflected[RENDER_TILE_PIXELS];
+    list_pixels(s, pixels, &r);
+    if (r.count == 0)
+        return;
+    render_surfaces_pick(s, r.pixels, r.count, tile);
+    find_irradiance(&r);
+    reflect(s, &r, reflected);
+    for (size_t i = 0; i < r.count; i++) {
+        s->bounced[0][r.pixels[i]] = reflected[i].r * r.irradiance[i].r / PI;
+        s->bounced[1][r.pixels[i]] = reflected[i].g * r.irradiance[i].g / PI;
+        s->bounced[2][r.pixels[i]] = reflected[i].b * r.irradiance[i].b / PI;
+    }
+}
