@@ -2,6 +2,7 @@
 #include "app/render/shadow/transfer.h"
 
 #include "app/base/timing.h"
+#include "app/render/shadow/transfer_bake.h"
 #include "app/render/shadow/transfer_direct.h"
 #include "app/render/shadow/transfer_read.h"
 #include "app/scene/vector.h"
@@ -11,10 +12,8 @@
 
 struct transfer {
     transfer_settings settings;
-    transfer_surfels surfels;
-    transfer_cells cells;
+    transfer_baked *baked;
     transfer_view view;
-    lmp_transfer *transfer; /* NULL in a scene without surfaces */
     lmp_rgb *direct;
     scene_light *lights, *new_lights; /* by which surfels are lit; of the frame that begins */
     size_t light_count;
@@ -24,32 +23,15 @@ struct transfer {
 
 /* --- creation --------------------------------------------------------------------------------- */
 
-static lmp_result make_transfer(transfer *t, const transfer_lists *lists) {
-    const lmp_transfer_desc desc = { .surfels = t->surfels.at,
-                                     .surfel_count = t->surfels.count,
-                                     .hits = lists->hits,
-                                     .ray_count = TRANSFER_RAYS,
-                                     .links = lists->links,
-                                     .link_count = TRANSFER_LINKS };
-    return lmp_transfer_create(NULL, &desc, &t->transfer);
-}
-
 static bool create_parts(transfer *t, const scene *world, const trace_bvh *bvh) {
-    transfer_lists lists = { NULL, NULL };
-    if (!transfer_surfels_make(world, &t->surfels))
+    t->baked = transfer_bake(world, bvh);
+    if (!t->baked)
         return false;
-    transfer_drop_buried(world, bvh, &t->surfels);
-    if (t->surfels.count == 0)
-        return true;
-    t->view = (transfer_view) { world, bvh, &t->cells };
-    t->direct = malloc(t->surfels.count * sizeof *t->direct);
+    t->view = (transfer_view) { world, bvh, &t->baked->cells };
+    t->direct = malloc((t->baked->surfels.count + 1) * sizeof *t->direct);
     t->lights = malloc(SCENE_LIGHTS_MAX * sizeof *t->lights);
     t->new_lights = malloc(SCENE_LIGHTS_MAX * sizeof *t->new_lights);
-    const bool made = t->direct && t->lights && t->new_lights &&
-                      transfer_cells_create(&t->surfels, &t->cells) &&
-                      transfer_lists_create(&t->view, &lists) && make_transfer(t, &lists) == LMP_OK;
-    transfer_lists_free(&lists);
-    return made;
+    return t->direct && t->lights && t->new_lights;
 }
 
 transfer *transfer_create(const scene *world, const trace_bvh *bvh,
@@ -57,10 +39,11 @@ transfer *transfer_create(const scene *world, const trace_bvh *bvh,
     const double start = timing_now();
     transfer *t = calloc(1, sizeof *t);
     if (t && bvh && create_parts(t, world, bvh)) {
+        const transfer_baked *b = t->baked;
         t->settings = *settings;
-        t->statistics.surfels = t->surfels.count;
-        t->statistics.spacing = t->surfels.spacing;
-        t->statistics.bytes = t->transfer ? lmp_transfer_describe(t->transfer).bytes : 0;
+        t->statistics.surfels = b->surfels.count;
+        t->statistics.spacing = b->surfels.spacing;
+        t->statistics.bytes = b->transfer ? lmp_transfer_describe(b->transfer).bytes : 0;
         t->statistics.create_milliseconds = 1e3 * (timing_now() - start);
         return t;
     }
@@ -72,9 +55,7 @@ transfer *transfer_create(const scene *world, const trace_bvh *bvh,
 void transfer_destroy(transfer *t) {
     if (!t)
         return;
-    lmp_transfer_destroy(t->transfer);
-    transfer_cells_free(&t->cells);
-    free(t->surfels.at);
+    transfer_baked_destroy(t->baked);
     free(t->direct);
     free(t->lights);
     free(t->new_lights);
@@ -105,8 +86,8 @@ static bool follow_lights(transfer *t, const render_frame *frame) {
                                  t->direct))
         return false;
     const double lit = timing_now();
-    lmp_transfer_reset(t->transfer);
-    if (lmp_transfer_update(NULL, t->transfer, &settings, &lighting) != LMP_OK)
+    lmp_transfer_reset(t->baked->transfer);
+    if (lmp_transfer_update(NULL, t->baked->transfer, &settings, &lighting) != LMP_OK)
         return false;
     t->statistics.light_milliseconds = 1e3 * (lit - start);
     t->statistics.bounce_milliseconds = 1e3 * (timing_now() - lit);
@@ -129,10 +110,10 @@ static bool begin(void *user, const render_frame *frame, base_error *error) {
 static void fill(const void *user, const render_surfaces *surfaces, const render_rectangle *pixels,
                  render_tile *tile) {
     const transfer *t = user;
-    transfer_read(&t->view, t->transfer, surfaces, pixels, tile);
+    transfer_read(&t->view, t->baked->transfer, surfaces, pixels, tile);
 }
 
 render_bounces transfer_bounces(transfer *t) {
-    return t->transfer ? (render_bounces) { .begin = begin, .fill = fill, .user = t }
-                       : (render_bounces) { .user = NULL };
+    return t->baked->transfer ? (render_bounces) { .begin = begin, .fill = fill, .user = t }
+                              : (render_bounces) { .user = NULL };
 }

@@ -149,17 +149,25 @@ static void fill_links(const transfer_view *view, size_t index, uint32_t *links)
         links[count++] = LMP_TRANSFER_NONE;
 }
 
-bool transfer_lists_create(const transfer_view *view, transfer_lists *lists) {
-    const ptrdiff_t count = (ptrdiff_t)view->cells->surfels->count;
+bool transfer_lists_create(const transfer_view *view, const lmp_host *host, transfer_lists *lists) {
+    enum { TOGETHER = 64 };
+    const size_t count = view->cells->surfels->count;
+    const ptrdiff_t groups = (ptrdiff_t)((count + TOGETHER - 1) / TOGETHER);
     const float lift = (float)trace_lift(view->scene);
-    lists->hits = malloc(((size_t)count * TRANSFER_RAYS + 1) * sizeof *lists->hits);
-    lists->links = malloc(((size_t)count * TRANSFER_LINKS + 1) * sizeof *lists->links);
+    ptrdiff_t done = 0;
+    lists->hits = malloc((count * TRANSFER_RAYS + 1) * sizeof *lists->hits);
+    lists->links = malloc((count * TRANSFER_LINKS + 1) * sizeof *lists->links);
     if (!lists->hits || !lists->links)
         return false;
-#pragma omp parallel for schedule(dynamic, 64)
-    for (ptrdiff_t i = 0; i < count; i++) {
-        fill_hits(view, (size_t)i, lift, lists->hits + i * TRANSFER_RAYS);
-        fill_links(view, (size_t)i, lists->links + i * TRANSFER_LINKS);
+#pragma omp parallel for schedule(dynamic)
+    for (ptrdiff_t group = 0; group < groups; group++) {
+        for (size_t i = (size_t)group * TOGETHER; i < count && i < (size_t)(group + 1) * TOGETHER;
+             i++) {
+            fill_hits(view, i, lift, lists->hits + i * TRANSFER_RAYS);
+            fill_links(view, i, lists->links + i * TRANSFER_LINKS);
+        }
+#pragma omp critical
+        host->progress((double)++done / (double)groups, host->user);
     }
     return true;
 }

@@ -24,8 +24,9 @@ typedef struct transfer_lists {
     uint32_t *hits, *links;
 } transfer_lists;
 
-/* Casts all rays, on all cores. Returns false if memory ran out; free the lists in any case. */
-bool transfer_lists_create(const transfer_view *view, transfer_lists *lists);
+/* Casts all rays, on all cores, and tells the host's progress. Returns false if memory ran out;
+ * free the lists in any case. */
+bool transfer_lists_create(const transfer_view *view, const lmp_host *host, transfer_lists *lists);
 void transfer_lists_free(transfer_lists *lists);
 
 /* Returns the nearest surfel that is seen from a point of a surface, one of about the same normal

@@ -126,7 +126,8 @@ bool transfer_surfels_make(const scene *world, transfer_surfels *s) {
     const double area = sided_area(world);
     const lmp_vec3 extent = vec_sub(vec_load(world->maximum), vec_load(world->minimum));
     *s = (transfer_surfels) { .at = malloc(2 * TRANSFER_SURFELS_MAX * sizeof *s->at) };
-    s->spacing = fmaxf(vec_length(extent) / 60, (float)sqrt(area / TRANSFER_SURFELS_MAX));
+    s->spacing =
+        fmaxf(vec_length(extent) / TRANSFER_SPACINGS, (float)sqrt(area / TRANSFER_SURFELS_MAX));
     if (s->at && area > 0)
         add_points(world, s);
     return s->at != NULL;

@@ -13,10 +13,11 @@ typedef struct transfer_surfels {
     float spacing; /* the root of the area that each stands for */
 } transfer_surfels;
 
-/* Makes the surfels of a scene: about a sixtieth of its extent apart, fewer where this would be
- * more than TRANSFER_SURFELS_MAX; double-sided surfaces have them on both sides. Without a surface
- * there is none. Returns false if memory ran out; free surfels->at in any case. */
+/* Makes the surfels of a scene: TRANSFER_SPACINGS of them span its extent, fewer where this would
+ * be more than TRANSFER_SURFELS_MAX; double-sided surfaces have them on both sides. Without a
+ * surface there is none. Returns false if memory ran out; free surfels->at in any case. */
 #define TRANSFER_SURFELS_MAX 40000
+#define TRANSFER_SPACINGS    60
 bool transfer_surfels_make(const scene *world, transfer_surfels *surfels);
 
 /* Writes number k of Roberts' sequence R2, whose fractions fill the square evenly, shifted by

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* transfer_bake.h - all of a scene's bounces that does not depend on lights, made once. */
+#ifndef LAMPION_RENDER_SHADOW_TRANSFER_BAKE_H
+#define LAMPION_RENDER_SHADOW_TRANSFER_BAKE_H
+
+#include "app/render/shadow/transfer_lists.h"
+
+typedef struct transfer_baked {
+    transfer_surfels surfels;
+    transfer_cells cells;
+    lmp_transfer *transfer; /* NULL in a scene without surfaces */
+} transfer_baked;
+
+/* Makes a scene's surfels and casts their rays, with a progress bar, or reads them from the cache,
+ * where they are kept by the scene's geometry and materials. Returns NULL if memory ran out. */
+transfer_baked *transfer_bake(const scene *world, const trace_bvh *bvh);
+void transfer_baked_destroy(transfer_baked *baked);
+
+#endif
