@@ -403,10 +403,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           1, SAMPLES_MAX, NULL, &o.samples_given },
         SHADE_FIELD_OPTION_ROWS(o.field),
         SHADOW_OPTION_ROWS(o.shadow),
-        { "bounces", 0, CLI_INT, &o.bounces, "N",
-          "how often surfaces reflect light on to other surfaces, as diffuse ones do; 0 means "
-          "direct light alone",
-          0, TRANSFER_BOUNCES_MAX, NULL, NULL },
+        BOUNCES_OPTION_ROW(o.bounces),
         { "stats", 0, CLI_FLAG, &o.stats, NULL,
           "print what was drawn and the time of each pass of a sample, as JSON", 0, 0, NULL, NULL },
         { "repeat", 0, CLI_INT, &o.repeat, "N", "frames whose median --stats takes", 1,

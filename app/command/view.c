@@ -2,6 +2,7 @@
 #include "app/view/view.h"
 #include "app/base/cli.h"
 #include "app/command/command.h"
+#include "app/render/renderer/bounces.h"
 #include "app/render/renderer/override.h"
 #include "app/render/renderer/shadows.h"
 #include "app/scene/animation.h"
@@ -21,7 +22,8 @@ typedef struct view_arguments {
     int tone;
     const char *from;
     cli_list materials;
-    shadow_options shadow;  /* whether shadows are cast */
+    shadow_options shadow; /* whether shadows are cast */
+    int bounces;
     view_shot_options shot; /* for `from` */
 } view_arguments;
 
@@ -66,6 +68,7 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
         s->height = a->size[1];
         s->shadows = a->shadow.on && !a->shadow.off;
         o->shadows_chosen = a->shadow.on || a->shadow.off;
+        s->bounces = a->bounces;
         s->divider = 0.5f;
         s->shading[0] = (view_shading) { a->method, a->bands, (lmp_window)a->window };
         s->shading[1] = s->shading[0];
@@ -124,6 +127,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "windowing filter: damps the ringing of a series of few bands", 0, 0,
           method_window_names(), NULL },
         SHADOW_SWITCH_ROWS(a.shadow, SHADOW_SUITS " or a GPU draws"),
+        BOUNCES_OPTION_ROW(a.bounces),
         SCENE_LIGHTS_OPTION_ROWS(o->lights),
         ENVIRONMENT_OPTION_ROWS(o->environment),
         ENVIRONMENT_GROUND_ROW(o->environment),

@@ -86,8 +86,13 @@ bool render_surfaces_keep_smooth(render_surfaces *s) {
     return s->smooth;
 }
 
-bool render_surfaces_keep_bounced(render_surfaces *s) {
+bool render_surfaces_fit_bounced(const render_frame *frame, render_surfaces *s) {
     const size_t count = (size_t)s->width * (size_t)s->height;
+    if (!frame->bounces.fill) {
+        free(s->bounced[0]);
+        s->bounced[0] = s->bounced[1] = s->bounced[2] = NULL;
+        return true;
+    }
     if (!s->bounced[0])
         s->bounced[0] = memory_large(3 * count * sizeof *s->bounced[0]);
     for (size_t c = 1; c < 3 && s->bounced[0]; c++)

@@ -55,11 +55,14 @@ size_t render_surfaces_values(int width, int height, const render_materials *mat
 void render_surfaces_lay(float *memory, int width, int height, const render_materials *materials,
                          render_surfaces *surfaces);
 
-/* Allocate the plane of hits, or of normals, for whoever fills the planes to keep, or those of
- * bounced light. Return false if memory ran out. */
+/* Allocate the plane of hits, or of normals, for whoever fills the planes to keep. Return false if
+ * memory ran out. */
 bool render_surfaces_keep_hits(render_surfaces *surfaces);
 bool render_surfaces_keep_smooth(render_surfaces *surfaces);
-bool render_surfaces_keep_bounced(render_surfaces *surfaces);
+
+/* Allocates the planes of bounced light for a frame that has any, or frees them for one that has
+ * none. Returns false if memory ran out. */
+bool render_surfaces_fit_bounced(const render_frame *frame, render_surfaces *surfaces);
 
 /* Allocates `same`, so that pixels may be left to `first`, which is to be set. Returns false if
  * memory ran out. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/compositor.h"
+#include "app/render/renderer/bounces.h"
 #include "app/render/renderer/shadows.h"
 #include "app/render/shade_field.h"
 #include "app/view/compose.h"
@@ -34,6 +35,7 @@ struct view_compositor {
     view_side shown[2]; /* the images of the sides, if there is no screen */
     side sides[2];
     shadow *shadows;
+    transfer *bounces; /* once light bounces */
     view_surroundings surroundings;
     scene_light *lit; /* the settings' lights and the environment's suns, or NULL */
     view_lobes lobes;
@@ -75,6 +77,7 @@ void view_compositor_destroy(view_compositor *s) {
     close_side(&s->sides[1]);
     view_lobes_free(&s->lobes);
     shadow_destroy(s->shadows);
+    transfer_destroy(s->bounces);
     environment_free(&s->surroundings.around);
     free(s->lit);
     gpu_screen_destroy(s->screen);
@@ -160,6 +163,8 @@ const char *view_compositor_pending(view_compositor *s, const view_settings *set
     }
     if (settings->shadows && !s->shadows)
         return "sorting the triangles for shadows …";
+    if (settings->bounces > 0 && !s->bounces)
+        return "casting rays between surfaces …";
     return NULL;
 }
 
@@ -169,10 +174,11 @@ static bool has_preview(const view_compositor *s) {
     return s->gpu.gl.software && s->world->index_count / 3 > PREVIEW_TRIANGLES;
 }
 
-/* Chooses the quality of a preview. With shadows the scene is not simplified, because triangles
- * that stand for many would block light from each other. */
+/* Chooses the quality of a preview. With shadows or bounces the scene is not simplified, because
+ * triangles that stand for many would block light from each other. */
 static quality choose_quality(const view_compositor *s, const view_settings *settings, bool rests) {
-    return rests || settings->shadows || !has_preview(s) ? RESTING : MOVING;
+    return rests || settings->shadows || settings->bounces > 0 || !has_preview(s) ? RESTING
+                                                                                  : MOVING;
 }
 
 /* Gives a renderer the materials and environment that its side already has. */
@@ -279,7 +285,14 @@ static bool prepare_environment(view_compositor *s, const view_settings *setting
     if (!same && (!view_surroundings_open(&s->surroundings, settings, s->world, error) ||
                   (s->shadows && !shadow_surround(s->shadows, around, error))))
         return false;
+    if (!same && s->bounces)
+        transfer_relight(s->bounces);
     return environment_project(around, bands, error);
+}
+
+/* Returns the device whose tree rays are cast by. */
+static render_device *tracing_device(view_compositor *s) {
+    return s->cpu.cpu ? &s->cpu : &s->gpu;
 }
 
 static bool prepare_shadows(view_compositor *s, const view_settings *settings, render_pass *pass,
@@ -288,11 +301,28 @@ static bool prepare_shadows(view_compositor *s, const view_settings *settings, r
     if (!settings->shadows)
         return true;
     if (!s->shadows)
-        s->shadows = render_device_shadow(s->cpu.cpu ? &s->cpu : &s->gpu, &s->surroundings.around,
-                                          &quick, error);
+        s->shadows =
+            render_device_shadow(tracing_device(s), &s->surroundings.around, &quick, error);
     if (s->shadows)
         *pass = shadow_pass(s->shadows);
     return s->shadows;
+}
+
+static bool prepare_bounces(view_compositor *s, const view_settings *settings,
+                            render_bounces *bounces, base_error *error) {
+    const transfer_settings how = { .bounces = settings->bounces,
+                                    .shadows = settings->shadows,
+                                    .quick = true,
+                                    .around = &s->surroundings.around };
+    if (settings->bounces == 0)
+        return true;
+    if (!s->bounces)
+        s->bounces = render_device_transfer(tracing_device(s), &how, error);
+    if (!s->bounces)
+        return false;
+    transfer_set(s->bounces, &how);
+    *bounces = transfer_bounces(s->bounces);
+    return true;
 }
 
 static bool add_suns(view_compositor *s, render_frame *frame, base_error *error) {
@@ -360,7 +390,8 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         if (!renderer || !prepare_materials(s, own, settings, shading, error) ||
             !fill_frame(s, settings, shading, divisor, &frame, error) ||
             !prepare_field(s, own, shading, &frame, error) ||
-            !prepare_shadows(s, settings, &frame.shadow, error))
+            !prepare_shadows(s, settings, &frame.shadow, error) ||
+            !prepare_bounces(s, settings, &frame.bounces, error))
             return false;
         frame.keep_geometry = renderer->cpu ? rests : fineness == RESTING && s->gpu.gl.software;
         if (index < 0 ? !renderer_draw(renderer, &frame, &times, error)
@@ -372,6 +403,7 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         statistics->times.shade += times.shade;
         statistics->times.transfer += times.transfer;
         statistics->times.shadow += times.shadow;
+        statistics->times.bounces += times.bounces;
         statistics->times.total += times.total;
         statistics->width = frame.width;
         statistics->height = frame.height;
@@ -407,7 +439,8 @@ bool view_compositor_expose(view_compositor *s, const view_settings *settings, f
         !(renderer = open_side(s, own, settings, shading, FINE, error)) ||
         !prepare_materials(s, own, settings, shading, error) ||
         !fill_frame(s, settings, shading, 1, &frame, error) ||
-        !prepare_field(s, own, shading, &frame, error))
+        !prepare_field(s, own, shading, &frame, error) ||
+        !prepare_bounces(s, settings, &frame.bounces, error))
         return false;
     *exposure = environment_exposure(&s->surroundings.around, settings->light_count);
     if (*exposure > 0)

@@ -28,6 +28,7 @@ static void shade_as_before(const viewer *v, view_settings *settings) {
     settings->material_count = v->good->material_count;
     settings->split = v->good->split;
     settings->shadows = v->good->shadows;
+    settings->bounces = v->good->bounces;
 }
 
 /* Reverts settings that cannot be drawn, with a message that says why. */

@@ -76,6 +76,11 @@ static void toggle_shadows(view_state *s, int unused) {
     view_say(s, s->now.shadows ? "Shadows" : "No shadows");
 }
 
+static void toggle_bounces(view_state *s, int bounces) {
+    s->now.bounces = s->now.bounces > 0 ? 0 : bounces;
+    view_say(s, s->now.bounces > 0 ? "Light bounces" : "Direct light alone");
+}
+
 static void swap_sides(view_state *s, int unused) {
     (void)unused;
     const view_shading first = s->now.shading[0];
@@ -240,6 +245,7 @@ const view_key view_keys[] = {
     { "u", "U", "tone curve", change_tone, 1 },
     { "U", NULL, NULL, change_tone, -1 },
     { "z", "Z", "shadows on, off", toggle_shadows, 0 },
+    { "Z", "Shift Z", "light that bounces on, off", toggle_bounces, 8 },
     { "t", "T", "material of the object pointed at", change_material, 1 },
     { "T", NULL, NULL, change_material, -1 },
 

@@ -82,6 +82,8 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
             device_table[v->statistics.device].text);
     if (t->shadow > 0)
         add_row(rows, &count, "Shadows", "%.1f ms", t->shadow);
+    if (t->bounces > 0)
+        add_row(rows, &count, "Bounces", "%.1f ms", t->bounces);
     if (t->transfer > 0)
         add_row(rows, &count, "Transfer", "%.1f ms", t->transfer);
     add_row(rows, &count, "Window", "%.1f ms", 1e3 * v->show_seconds);

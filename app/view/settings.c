@@ -3,6 +3,7 @@
 #include "app/base/file.h"
 #include "app/base/file_json.h"
 #include "app/image/image.h"
+#include "app/render/renderer/bounces.h"
 #include "app/scene/material.h"
 #include "app/scene/shot.h"
 #include "app/scene/vector.h"
@@ -107,6 +108,8 @@ json_t *view_settings_to_json(const view_settings *s) {
     root = file_json_with(root, "height", json_integer(s->height));
     root = file_json_with(root, "samples", json_integer(s->samples));
     root = file_json_with(root, "shadows", json_boolean(s->shadows));
+    if (s->bounces > 0)
+        root = file_json_with(root, "bounces", json_integer(s->bounces));
     root = file_json_with(root, "ground", json_string(environment_ground_names[s->ground]));
     root = file_json_with(root, "exposure", file_json_float(s->exposure));
     root = file_json_with(root, "tone", json_string(image_tones[s->tone].name));
@@ -205,6 +208,12 @@ static bool read_shadows(const json_t *root, bool *shadows) {
     const json_t *item = json_object_get(root, "shadows");
     *shadows = json_is_true(item);
     return !item || json_is_boolean(item);
+}
+
+/* Reads how often light bounces; absent means not at all. */
+static bool read_bounces(const json_t *root, int *bounces) {
+    return !json_object_get(root, "bounces") ||
+           read_int(root, "bounces", 0, TRANSFER_BOUNCES_MAX, bounces);
 }
 
 /* Reads the ground, which screenshots of early versions lack. */
@@ -314,6 +323,7 @@ bool view_settings_from_json(const json_t *root, const char *subject, view_setti
                         : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
                         : !read_int(root, "samples", 1, VIEW_SAMPLES_MAX, &s->samples) ? "samples"
                         : !read_shadows(root, &s->shadows)                             ? "shadows"
+                        : !read_bounces(root, &s->bounces)                             ? "bounces"
                         : !read_ground(root, &s->ground)                               ? "ground"
                         : !read_float(root, "exposure", 1e-30, 1e30, &s->exposure)     ? "exposure"
                         : !read_tone(root, &s->tone)                                   ? "tone"

@@ -28,6 +28,7 @@ typedef struct view_settings {
     int width, height;
     int samples; /* per pixel */
     bool shadows;
+    int bounces;    /* of light between surfaces; 0: none */
     int ground;     /* environment_ground */
     float exposure; /* a factor on radiance */
     int tone;       /* a row of image_tones */

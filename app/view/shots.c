@@ -120,6 +120,7 @@ static json_t *ui_to_json(const viewer *v) {
     ui = file_json_with(ui, "gbuffer_ms", file_json_real(v->statistics.times.surfaces));
     ui = file_json_with(ui, "shade_ms", file_json_real(v->statistics.times.shade));
     ui = file_json_with(ui, "shadow_ms", file_json_real(v->statistics.times.shadow));
+    ui = file_json_with(ui, "bounces_ms", file_json_real(v->statistics.times.bounces));
     return file_json_with(ui, "transfer_ms", file_json_real(v->statistics.times.transfer));
 }
 

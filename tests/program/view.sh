@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # view.sh PART: lampion view in a window. session: by real input, checked step by step, by its state and images;
-# script, shadows, edit: what scripts do; refusals.
+# script, shadows, bounces, edit: what scripts do; refusals.
 set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
@@ -216,6 +216,22 @@ test_shadows() {
     "$PROGRAM" render --from unshaded.png -o repeated.png
     "$PROGRAM" view $roof --shadows --no-shadows --script shade.txt || fail "--no-shadows ends in $?"
     cmp unshaded.png repeated.png || fail "shadows do not go"
+}
+
+test_bounces() {
+    # light that a floor reflects to the underside of a roof: a key, the option, and the image once more without a window
+    printf '%s\nv -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\nf 7 8 9 10\n' "$room" >roof.obj
+    echo '{ "lights": [ { "position": [0.5, 3, 0], "radius": 0.3, "radiance": 40 } ] }' >over.json
+    printf '0 shot direct.png\n0.1 key Z\n0.4 shot bounced.png\n0.5 key Z\n0.8 shot again.png\n1 key Ctrl+Q\n' >bounce.txt
+    printf '0.3 shot option.png\n0.5 key Ctrl+Q\n' >option.txt
+    roof="roof.obj --lights over.json --shadows --exposure 1 --eye 0,0.4,5 --target 0,0.4,0 --size 160x90 --samples 3"
+    "$PROGRAM" view $roof --script bounce.txt || fail "the script with bounces ends in $?"
+    "$PROGRAM" view $roof --bounces 8 --script option.txt || fail "a view with bounces ends in $?"
+    "$PROGRAM" render --from bounced.png -o repeated.png
+    "$PROGRAM" compare direct.png bounced.png --fail-above rmse=0.01 >differ.txt && fail "no light bounces"
+    cmp bounced.png option.png || fail "the key and --bounces differ"
+    cmp bounced.png repeated.png || fail "an image with bounces is repeated otherwise"
+    "$PROGRAM" compare direct.png again.png --fail-above max=0 >differ.txt || fail "bounces do not go"
 }
 
 test_edit() {

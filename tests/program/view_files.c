@@ -70,6 +70,13 @@ static void damaged_settings_are_refused(void **unused) {
     assert_false(view_settings_from_json(root, "shot", &read, &error));
     assert_non_null(strstr(error.text, "shadows"));
     json_object_del(root, "shadows");
+    json_object_set_new(root, "bounces", json_integer(1));
+    assert_true(view_settings_from_json(root, "shot", &read, &error));
+    assert_int_equal(read.bounces, 1);
+    json_object_set_new(root, "bounces", json_integer(-1));
+    assert_false(view_settings_from_json(root, "shot", &read, &error));
+    assert_non_null(strstr(error.text, "bounces"));
+    json_object_del(root, "bounces");
     static const char *const parts[] = { "scene", "camera", "looks", "lights", "materials" };
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         json_t *item = json_incref(json_object_get(root, parts[i]));

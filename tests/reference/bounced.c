@@ -28,12 +28,10 @@ static void draw(const room *r, int bounces, bool shadows, image *pixels) {
         assert_non_null(caster);
         frame.shadow = shadow_pass(caster);
     }
-    const transfer_settings settings = { .bounces = bounces,
-                                         .shadows = shadows,
-                                         .before = frame.shadow };
+    const transfer_settings settings = { .bounces = bounces, .shadows = shadows };
     transfer *bounced = render_device_transfer(&device, &settings, &error);
     assert_non_null(bounced);
-    frame.shadow = transfer_pass(bounced);
+    frame.bounces = transfer_bounces(bounced);
     assert_true(renderer_draw(renderer, &frame, NULL, &error));
     assert_true(renderer_read_image(renderer, pixels, &error));
     transfer_destroy(bounced);

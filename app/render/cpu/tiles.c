@@ -57,8 +57,8 @@ static tile_work *open_work(const tiles_job *job) {
         (!job->pass || render_surfaces_keep_hits(&w->surfaces)) &&
         render_surfaces_create(RENDER_TILE, RENDER_TILE, materials, &w->first) &&
         render_surfaces_keep_smooth(&w->first) &&
-        (!job->drawing->frame->bounces.fill ||
-         (render_surfaces_keep_bounced(&w->surfaces) && render_surfaces_keep_bounced(&w->first))) &&
+        render_surfaces_fit_bounced(job->drawing->frame, &w->surfaces) &&
+        render_surfaces_fit_bounced(job->drawing->frame, &w->first) &&
         render_tile_create(RENDER_TILE_PIXELS, &w->tile) &&
         (!job->pass || (w->pass = job->pass->open(job->drawing->frame->shadow.user))))
         return w;

@@ -35,8 +35,8 @@ static bool size_planes(cpu_whole *w, const cpu_drawing *d, bool keep, base_erro
         ((!d->frame->shadow.run && !d->frame->keep_geometry) ||
          (render_surfaces_keep_hits(&w->surfaces) &&
           (!keep || render_surfaces_keep_hits(&w->first)))) &&
-        (!d->frame->bounces.fill || (render_surfaces_keep_bounced(&w->surfaces) &&
-                                     (!keep || render_surfaces_keep_bounced(&w->first)))) &&
+        render_surfaces_fit_bounced(d->frame, &w->surfaces) &&
+        (!keep || render_surfaces_fit_bounced(d->frame, &w->first)) &&
         (!keep || render_surfaces_keep_smooth(&w->first));
     if (!ok)
         cpu_whole_free(w);

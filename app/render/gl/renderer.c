@@ -184,8 +184,7 @@ static bool shade_on_cpu(gpu_renderer *r, const render_frame *frame, const rende
             r->targets.hdr, 0, GL_RGBA, GL_FLOAT,
             (GLsizei)((size_t)r->targets.width * (size_t)r->targets.height * sizeof(vec4)), rgba);
     const double read = 1e3 * timing_now();
-    if (frame->bounces.fill &&
-        !(render_surfaces_keep_bounced(s) && render_surfaces_fill_bounced(s)))
+    if (!render_surfaces_fit_bounced(frame, s) || !render_surfaces_fill_bounced(s))
         return base_fail(error, NULL, "out of memory");
     if (!frame->cpu_shader)
         add_bounced(s, rgba);

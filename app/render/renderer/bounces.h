@@ -3,8 +3,17 @@
 #ifndef LAMPION_RENDER_RENDERER_BOUNCES_H
 #define LAMPION_RENDER_RENDERER_BOUNCES_H
 
+#include "app/base/cli.h"
 #include "app/render/renderer/renderer.h"
 #include "app/render/shadow/transfer.h"
+
+#define BOUNCES_OPTION_ROW(variable)                                                               \
+    {                                                                                              \
+        .name = "bounces", .kind = CLI_INT, .target = &(variable), .argument = "N",                \
+        .help = "how often surfaces reflect light on to other surfaces, as diffuse ones do; 0 "    \
+                "means direct light alone",                                                        \
+        .minimum = 0, .maximum = TRANSFER_BOUNCES_MAX                                              \
+    }
 
 /* Creates the bounced light of the device's scene, by the rays of render_device_bvh, as
  * transfer_create does: the device and the environment must outlive it. */

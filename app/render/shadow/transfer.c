@@ -62,6 +62,18 @@ void transfer_destroy(transfer *t) {
     free(t);
 }
 
+void transfer_relight(transfer *t) {
+    t->lit = false;
+}
+
+void transfer_set(transfer *t, const transfer_settings *settings) {
+    const transfer_settings *now = &t->settings;
+    if (now->bounces != settings->bounces || now->shadows != settings->shadows ||
+        now->quick != settings->quick || now->around != settings->around)
+        transfer_relight(t);
+    t->settings = *settings;
+}
+
 transfer_statistics transfer_describe(const transfer *t) {
     return t->statistics;
 }
@@ -82,8 +94,8 @@ static bool follow_lights(transfer *t, const render_frame *frame) {
     const double start = timing_now();
     const lmp_transfer_settings settings = { .iterations = t->settings.bounces };
     const lmp_transfer_lighting lighting = { .direct = t->direct };
-    if (!transfer_light_directly(&t->view, frame, t->settings.around, t->settings.shadows,
-                                 t->direct))
+    const transfer_way way = { t->settings.around, t->settings.shadows, t->settings.quick };
+    if (!transfer_light_directly(&t->view, frame, &way, t->direct))
         return false;
     const double lit = timing_now();
     lmp_transfer_reset(t->baked->transfer);

@@ -14,6 +14,7 @@ typedef struct transfer transfer;
 typedef struct transfer_settings {
     int bounces;               /* 1 … TRANSFER_BOUNCES_MAX */
     bool shadows;              /* whether surfaces hide lights from surfels */
+    bool quick;                /* whether surfels send few rays to lights, for lights that move */
     const environment *around; /* NULL: none; must outlive the transfer */
 } transfer_settings;
 #define TRANSFER_BOUNCES_MAX 1000
@@ -23,6 +24,12 @@ typedef struct transfer_settings {
 transfer *transfer_create(const scene *world, const trace_bvh *bvh,
                           const transfer_settings *settings, base_error *error);
 void transfer_destroy(transfer *transfer);
+
+/* Changes the settings. */
+void transfer_set(transfer *transfer, const transfer_settings *settings);
+
+/* Forgets the light of the surfels, because the environment has changed. */
+void transfer_relight(transfer *transfer);
 
 /* Returns what a frame needs to be drawn with bounced light; zero in a scene without surfaces. */
 render_bounces transfer_bounces(transfer *transfer);

@@ -97,20 +97,21 @@ static void add_sample(const transfer_view *view, const shadow_source *source, u
 
 /* Returns how many rays a surfel sends to a source: more to an environment, which is all penumbra,
  * and fewer where there are many lights, whose noise evens out. */
-static uint32_t samples_of(const shadow_source *source, size_t source_count) {
-    enum { AROUND = 64, LIGHTS = 128, LIGHT_MAX = 16 };
-    const size_t each = LIGHTS / source_count;
+static uint32_t samples_of(const shadow_source *source, size_t source_count, bool quick) {
+    enum { AROUND = 64, LIGHTS = 128, LIGHT_MAX = 16, QUICK = 8 };
+    const size_t each = LIGHTS / source_count / (quick ? QUICK : 1),
+                 most = quick ? LIGHT_MAX / QUICK : LIGHT_MAX;
     if (source->kind == SHADOW_AROUND)
-        return AROUND;
-    return each < 1 ? 1 : each > LIGHT_MAX ? LIGHT_MAX : (uint32_t)each;
+        return quick ? AROUND / QUICK : AROUND;
+    return each < 1 ? 1 : each > most ? (uint32_t)most : (uint32_t)each;
 }
 
 static void light_lanes(const transfer_view *view, const shadow_source *sources, size_t count,
-                        float lift, size_t first, lmp_rgb *direct) {
+                        bool quick, float lift, size_t first, lmp_rgb *direct) {
     surfel_lanes lanes;
     load_lanes(view, first, lift, &lanes);
     for (size_t s = 0; s < count; s++) {
-        const uint32_t samples = samples_of(&sources[s], count);
+        const uint32_t samples = samples_of(&sources[s], count, quick);
         for (uint32_t k = 0; k < samples; k++)
             add_sample(view, &sources[s], k, 1 / (float)samples, &lanes);
     }
@@ -121,21 +122,21 @@ static void light_lanes(const transfer_view *view, const shadow_source *sources,
 }
 
 static bool light_by_rays(const transfer_view *view, const render_frame *frame,
-                          const environment *around, lmp_rgb *direct) {
+                          const transfer_way *way, lmp_rgb *direct) {
     const ptrdiff_t groups =
         (ptrdiff_t)((view->cells->surfels->count + SHADOW_LANES - 1) / SHADOW_LANES);
     const float lift = (float)trace_lift(view->scene);
     scene_emitter *areas = malloc((frame->light_count + 1) * sizeof *areas);
     shadow_source *sources = malloc(SHADOW_SOURCES(frame->light_count) * sizeof *sources);
     shadow_around sampled = { .source = NULL };
-    const bool ok = areas && sources && shadow_around_create(around, &sampled);
+    const bool ok = areas && sources && shadow_around_create(way->around, &sampled);
     if (ok) {
         const size_t count =
             shadow_sources_make(frame->lights, frame->light_count,
                                 shadow_around_shines(&sampled) ? &sampled : NULL, areas, sources);
 #pragma omp parallel for schedule(dynamic, 8)
         for (ptrdiff_t i = 0; i < groups; i++)
-            light_lanes(view, sources, count, lift, (size_t)i * SHADOW_LANES, direct);
+            light_lanes(view, sources, count, way->quick, lift, (size_t)i * SHADOW_LANES, direct);
     }
     shadow_around_free(&sampled);
     free(areas);
@@ -144,7 +145,7 @@ static bool light_by_rays(const transfer_view *view, const render_frame *frame,
 }
 
 bool transfer_light_directly(const transfer_view *view, const render_frame *frame,
-                             const environment *around, bool shadows, lmp_rgb *direct) {
-    return shadows ? light_by_rays(view, frame, around, direct)
-                   : light_openly(view->cells->surfels, frame, around, direct);
+                             const transfer_way *way, lmp_rgb *direct) {
+    return way->shadows ? light_by_rays(view, frame, way, direct)
+                        : light_openly(view->cells->surfels, frame, way->around, direct);
 }

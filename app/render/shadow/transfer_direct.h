@@ -6,9 +6,16 @@
 #include "app/render/shadow/transfer_lists.h"
 #include "app/render/surfaces.h"
 
-/* Computes the direct irradiance of every surfel in a frame's light, on all cores: with shadows,
- * whose rays are spread over each light, or without. Returns false if memory ran out. */
+/* How surfels are lit. */
+typedef struct transfer_way {
+    const environment *around; /* NULL: none */
+    bool shadows;              /* whether surfaces hide lights, by rays spread over each light */
+    bool quick;                /* whether rays are few */
+} transfer_way;
+
+/* Computes the direct irradiance of every surfel in a frame's light, on all cores. Returns false if
+ * memory ran out. */
 bool transfer_light_directly(const transfer_view *view, const render_frame *frame,
-                             const environment *around, bool shadows, lmp_rgb *direct);
+                             const transfer_way *way, lmp_rgb *direct);
 
 #endif
