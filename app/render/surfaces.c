@@ -86,18 +86,24 @@ bool render_surfaces_keep_smooth(render_surfaces *s) {
     return s->smooth;
 }
 
+void render_surfaces_lay_bounced(float *memory, render_surfaces *s) {
+    const size_t count = (size_t)s->width * (size_t)s->height;
+    for (size_t c = 0; c < 3; c++) {
+        s->bounced[c] = memory ? memory + c * count : NULL;
+        s->arrived[c] = memory ? memory + (3 + c) * count : NULL;
+    }
+}
+
 bool render_surfaces_fit_bounced(const render_frame *frame, render_surfaces *s) {
     const size_t count = (size_t)s->width * (size_t)s->height;
+    float *memory = s->bounced[0];
     if (!frame->bounces.fill) {
-        free(s->bounced[0]);
-        s->bounced[0] = s->bounced[1] = s->bounced[2] = NULL;
-        return true;
-    }
-    if (!s->bounced[0])
-        s->bounced[0] = memory_large(3 * count * sizeof *s->bounced[0]);
-    for (size_t c = 1; c < 3 && s->bounced[0]; c++)
-        s->bounced[c] = s->bounced[0] + c * count;
-    return s->bounced[0];
+        free(memory);
+        memory = NULL;
+    } else if (!memory)
+        memory = memory_large(RENDER_BOUNCED_PLANES * count * sizeof *memory);
+    render_surfaces_lay_bounced(memory, s);
+    return memory || !frame->bounces.fill;
 }
 
 bool render_surfaces_share(render_surfaces *s) {

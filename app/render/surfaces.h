@@ -34,6 +34,7 @@ struct render_surfaces {
     float *sheen[3], *sheen_roughness;
     float *transmitted[3]; /* color of transmitted light, as seen through a coat */
     float *bounced[3];     /* radiance that surfaces reflect of each other's light; or NULL */
+    float *arrived[3];     /* and the irradiance of it, W·m⁻² */
     float *weight; /* NULL, or in a scene with blended surfaces the weight of a sample that has met
                       one, and 0 elsewhere (app/scene/trace/blend.h) */
     trace_hit *hits;  /* also behind lights; NULL for a G-buffer, or if not requested */
@@ -59,6 +60,11 @@ void render_surfaces_lay(float *memory, int width, int height, const render_mate
  * memory ran out. */
 bool render_surfaces_keep_hits(render_surfaces *surfaces);
 bool render_surfaces_keep_smooth(render_surfaces *surfaces);
+
+enum { RENDER_BOUNCED_PLANES = 6 };
+
+/* Sets the planes of bounced light to those in `memory`, or to none if it is NULL. */
+void render_surfaces_lay_bounced(float *memory, render_surfaces *surfaces);
 
 /* Allocates the planes of bounced light for a frame that has any, or frees them for one that has
  * none. Returns false if memory ran out. */

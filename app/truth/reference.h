@@ -22,6 +22,7 @@ typedef struct reference_settings {
     uint64_t seed; /* of the noise: a seed gives the same bits for any number of threads */
     int threads;   /* 0 means all cores */
     bool shadows;  /* whether triangles block light */
+    bool metering; /* whether they block only light that bounces, as reference_meter has it */
     int bounces;   /* how often light is reflected on its way to the seen surface; not with a band
                     * limit */
     const environment *environment;  /* NULL: none */
@@ -40,8 +41,8 @@ bool reference_render(const scene *scene, const reference_settings *settings, im
                       image *standard_error, base_error *error);
 
 /* Computes the image from which the exposure is determined, as `lampion render` does: the light
- * that surfaces reflect, without shadows, visible lights, emission or the backdrop. *pixels is
- * created here. */
+ * that surfaces reflect, after bounces as well, without shadows of direct light, visible lights,
+ * emission or the backdrop. *pixels is created here. */
 bool reference_meter(const scene *scene, const reference_settings *settings, image *pixels,
                      base_error *error);
 

@@ -37,8 +37,7 @@ bool reference_meter(const scene *world, const reference_settings *settings, ima
     small.samples = METER_SAMPLES;
     small.shard[0] = small.shard[1] = 0;
     small.error = 0;
-    small.bounces = 0;
-    small.shadows = false;
+    small.metering = true;
     ok = ok && reference_render(&dark, &small, pixels, &unused, error);
     if (ok)
         image_free(&unused);

@@ -183,12 +183,12 @@ static void trace_pixel(const frame *f, worker *own, int x, int y) {
     }
 }
 
-static bool create_estimator(const frame *f, reference_estimator *estimator) {
+static bool create_estimator(const frame *f, bool shadows, reference_estimator *estimator) {
     const bool made = reference_estimator_create(estimator, f->glow.lights, f->glow.count);
     estimator->environment = f->environment;
     estimator->emission = reference_glow_emission;
     estimator->emission_user = (void *)(uintptr_t)&f->glow;
-    if (f->settings->shadows) {
+    if (shadows) {
         estimator->visibility = reference_tracer_free_path;
         estimator->visibility_user = (void *)(uintptr_t)f->tracer;
     }
@@ -200,8 +200,9 @@ static bool create_worker(const frame *f, worker *own) {
     *own = (worker) {
         .path = { .materials = &f->materials, .tracer = f->tracer, .bounces = f->settings->bounces }
     };
-    const bool made = create_estimator(f, &own->estimator) &&
-                      create_estimator(f, &own->path.estimator) &&
+    const bool shadows = f->settings->shadows;
+    const bool made = create_estimator(f, shadows && !f->settings->metering, &own->estimator) &&
+                      create_estimator(f, shadows, &own->path.estimator) &&
                       reference_description_create(&f->materials, &own->seen) &&
                       reference_description_create(&f->materials, &own->path.met);
     if (f->settings->bounces > 0) {

@@ -181,7 +181,8 @@ static bool size_kept(const cpu_drawing *d, cpu_tiles *t) {
     if (planes > 0) {
         t->first = memory_large((size_t)count * planes * sizeof *t->first);
         t->smooth = memory_large(pixels * sizeof *t->smooth);
-        t->bounced = memory_large((bounces ? 3 * pixels : 1) * sizeof *t->bounced);
+        t->bounced =
+            memory_large((bounces ? RENDER_BOUNCED_PLANES * pixels : 1) * sizeof *t->bounced);
         t->rgba = memory_large(4 * pixels * sizeof *t->rgba);
         t->sums = memory_large(4 * pixels * sizeof *t->sums);
     }
@@ -228,8 +229,8 @@ static tile_place place_of(const tiles_job *job, int number, const tile_work *w)
                         job->drawing->materials, &at.first);
     cpu_set_planes(job->drawing, &job->cameras[0], &at.first);
     at.first.smooth = t->smooth + before;
-    for (size_t c = 0; t->bounces && c < 3; c++)
-        at.first.bounced[c] = t->bounced + 3 * before + c * RENDER_TILE_PIXELS;
+    if (t->bounces)
+        render_surfaces_lay_bounced(t->bounced + RENDER_BOUNCED_PLANES * before, &at.first);
     at.rgba = t->rgba + 4 * before;
     at.sums = t->sums + 4 * before;
     return at;

@@ -79,9 +79,10 @@ void renderer_set_sheen(any_renderer *renderer, const lmp_brdf_table *const *whi
  * outlive the renderer. */
 void renderer_set_environment(any_renderer *renderer, const environment *environment);
 
-/* Renders the image from which a frame's exposure is determined: light that surfaces reflect,
- * without shadows, lamps and emission; the background is black. It does not depend on whether
- * lights are visible, and is small, whatever the frame's size. *pixels is created. */
+/* Renders the image from which a frame's exposure is determined: light that surfaces reflect, after
+ * bounces as well, without shadows of direct light, lamps and emission; the background is black. It
+ * does not depend on whether lights are visible, and is small, whatever the frame's size. *pixels
+ * is created. */
 bool renderer_meter(any_renderer *renderer, const render_frame *frame, image *pixels,
                     base_error *error);
 

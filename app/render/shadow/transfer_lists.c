@@ -12,8 +12,9 @@ static const float hit_cosine = 0.3f, link_cosine = 0.8f;
 /* How many surfels near a point are tried, until it sees one. */
 enum { TRIED_MAX = 12 };
 
-/* Rays along a surface start and end this many spacings off it, because it may be curved. */
-static const float off_surface = 0.02f;
+/* Rays along a surface start and end off it, because it may be curved: by so many spacings, and by
+ * so much of their length, which is the sag of a circle whose radius is their length. */
+static const float off_surface = 0.02f, sag = 0.13f;
 
 /* --- rays ------------------------------------------------------------------------------------- */
 
@@ -89,7 +90,8 @@ void transfer_drop_buried(const scene *world, const trace_bvh *bvh, transfer_sur
 /* Whether nothing stands between a point of a surface and a surfel. */
 static bool sees(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal, uint32_t surfel) {
     const lmp_transfer_surfel *to = &view->cells->surfels->at[surfel];
-    const float off = off_surface * view->cells->surfels->spacing;
+    const float distance = vec_length(vec_sub(to->position, point));
+    const float off = off_surface * view->cells->surfels->spacing + sag * distance;
     const lmp_vec3 from = vec_add(point, vec_scale(normal, off));
     const lmp_vec3 way = vec_sub(vec_add(to->position, vec_scale(to->normal, off)), from);
     return cast(view->bvh, from, way).distance >= 1;

@@ -19,7 +19,7 @@ typedef struct transfer_view {
 } transfer_view;
 
 /* The hits and links of lmp_transfer_desc. */
-enum { TRANSFER_RAYS = 512, TRANSFER_LINKS = 24 };
+enum { TRANSFER_RAYS = 256, TRANSFER_LINKS = 24 };
 typedef struct transfer_lists {
     uint32_t *hits, *links;
 } transfer_lists;

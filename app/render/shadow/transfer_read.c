@@ -32,6 +32,12 @@ typedef struct reading {
     lmp_rgb irradiance[RENDER_TILE_PIXELS];
 } reading;
 
+static void set_color(float *const planes[3], size_t pixel, lmp_rgb color) {
+    planes[0][pixel] = color.r;
+    planes[1][pixel] = color.g;
+    planes[2][pixel] = color.b;
+}
+
 /* Lists the pixels that show a surface of their own, and clears the planes of the others. */
 static void list_pixels(const render_surfaces *s, const render_rectangle *pixels, reading *r) {
     r->width = pixels->width;
@@ -48,7 +54,7 @@ static void list_pixels(const render_surfaces *s, const render_rectangle *pixels
             r->number[i] = (uint16_t)r->count;
             r->pixels[r->count++] = (uint32_t)pixel;
         } else
-            s->bounced[0][pixel] = s->bounced[1][pixel] = s->bounced[2][pixel] = 0;
+            set_color(s->bounced, pixel, (lmp_rgb) { 0, 0, 0 });
     }
 }
 
@@ -72,14 +78,14 @@ static lmp_rgb read_pixel(reading *r, size_t i) {
     return r->irradiance[i];
 }
 
-/* Whether two pixels lie on the same smooth surface, no further apart than its surfels. */
-static bool are_beside(const reading *r, size_t i, size_t k) {
+/* Whether a point lies on the same smooth surface as listed pixel i, no further away than its
+ * surfels. */
+static bool is_beside(const reading *r, size_t i, lmp_vec3 point, lmp_vec3 normal) {
     const float spacing = r->view->cells->surfels->spacing;
-    const lmp_vec3 normal = vector_at(r->tile->normal, i);
-    const lmp_vec3 away = vec_sub(vector_at(r->tile->position, k), vector_at(r->tile->position, i));
+    const lmp_vec3 own = vector_at(r->tile->normal, i);
+    const lmp_vec3 away = vec_sub(point, vector_at(r->tile->position, i));
     return vec_dot(away, away) <= spacing * spacing &&
-           fabsf(vec_dot(away, normal)) <= 0.1f * spacing &&
-           vec_dot(normal, vector_at(r->tile->normal, k)) >= 0.95f;
+           fabsf(vec_dot(away, own)) <= 0.1f * spacing && vec_dot(own, normal) >= 0.95f;
 }
 
 static bool differ(float a, float b) {
@@ -110,7 +116,8 @@ static square find_square(const reading *r, int x, int y, int size) {
     for (int i = 0; i < 4; i++) {
         const int column = i & 1 ? right : left, row = i & 2 ? bottom : top;
         const uint16_t corner = r->number[row * r->width + column];
-        if (corner != UNLISTED && are_beside(r, pixel, corner)) {
+        if (corner != UNLISTED && is_beside(r, pixel, vector_at(r->tile->position, corner),
+                                            vector_at(r->tile->normal, corner))) {
             q.weight[q.count] = (i & 1 ? along : 1 - along) * (i & 2 ? down : 1 - down);
             q.corner[q.count++] = corner;
         }
@@ -151,12 +158,34 @@ static lmp_rgb irradiance_of(reading *r, int x, int y) {
     return read_pixel(r, pixel);
 }
 
+/* Takes a listed pixel's irradiance from a pixel of the first sample that shows the same surface,
+ * itself or one next to it. */
+static bool take_first(reading *r, const render_surfaces *s, const render_rectangle *pixels, int x,
+                       int y) {
+    static const int beside[5][2] = { { 0, 0 }, { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
+    const render_surfaces *first = s->first;
+    const size_t i = r->number[y * r->width + x];
+    for (int k = 0; first && k < 5; k++) {
+        const int column = x + beside[k][0], row = y + beside[k][1];
+        if (column < 0 || column >= r->width || row < 0 || row >= r->height)
+            continue;
+        const size_t at = render_surfaces_at(s, pixels->x + column, pixels->y + row);
+        if (first->seen[at] < RENDER_SEES_LIGHT &&
+            is_beside(r, i, vector_at(first->position, at), vector_at(first->normal, at))) {
+            const lmp_vec3 e = vector_at(first->arrived, at);
+            r->irradiance[i] = (lmp_rgb) { e.x, e.y, e.z };
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Finds the irradiance of all listed pixels. */
-static void find_irradiance(reading *r) {
+static void find_irradiance(reading *r, const render_surfaces *s, const render_rectangle *pixels) {
     for (int y = 0; y < r->height; y++)
         for (int x = 0; x < r->width; x++) {
             const uint16_t i = r->number[y * r->width + x];
-            if (i != UNLISTED)
+            if (i != UNLISTED && !take_first(r, s, pixels, x, y))
                 r->irradiance[i] = irradiance_of(r, x, y);
         }
 }
@@ -194,11 +223,14 @@ void transfer_read(const transfer_view *view, const lmp_transfer *transfer,
     if (r.count == 0)
         return;
     render_surfaces_pick(s, r.pixels, r.count, tile);
-    find_irradiance(&r);
+    find_irradiance(&r, s, pixels);
     reflect(s, &r, reflected);
     for (size_t i = 0; i < r.count; i++) {
-        s->bounced[0][r.pixels[i]] = reflected[i].r * r.irradiance[i].r / PI;
-        s->bounced[1][r.pixels[i]] = reflected[i].g * r.irradiance[i].g / PI;
-        s->bounced[2][r.pixels[i]] = reflected[i].b * r.irradiance[i].b / PI;
+        const size_t pixel = r.pixels[i];
+        const lmp_rgb e = r.irradiance[i];
+        set_color(s->arrived, pixel, e);
+        set_color(s->bounced, pixel,
+                  (lmp_rgb) { reflected[i].r * e.r / PI, reflected[i].g * e.g / PI,
+                              reflected[i].b * e.b / PI });
     }
 }

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 /* Points on a surface read the surfels up to this many spacings away (docs/transfer.md). */
-#define REACH 1.5f
+#define REACH 2.1f
 
 void transfer_sequence(double k, double shift, double xy[2]) {
     xy[0] = 0.7548776662466927 * k + 0.6180339887498949 * shift;
