@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* Draws the room by the CPU; its transfer has the light of the frame. */
-static void draw(const room *r, int bounces, bool shadows, image *pixels) {
+/* Draws the room by the CPU, or what its exposure is found by. */
+static void draw_or_meter(const room *r, int bounces, bool shadows, bool meter, image *pixels) {
     const shadow_settings rays = { .rays = 64, .raw = true };
     base_error error = { "" };
     render_device device;
@@ -32,12 +32,19 @@ static void draw(const room *r, int bounces, bool shadows, image *pixels) {
     transfer *bounced = render_device_transfer(&device, &settings, &error);
     assert_non_null(bounced);
     frame.bounces = transfer_bounces(bounced);
-    assert_true(renderer_draw(renderer, &frame, NULL, &error));
-    assert_true(renderer_read_image(renderer, pixels, &error));
+    if (meter)
+        assert_true(renderer_meter(renderer, &frame, pixels, &error));
+    else
+        assert_true(renderer_draw(renderer, &frame, NULL, &error) &&
+                    renderer_read_image(renderer, pixels, &error));
     transfer_destroy(bounced);
     shadow_destroy(caster);
     renderer_destroy(renderer);
     render_device_close(&device);
+}
+
+static void draw(const room *r, int bounces, bool shadows, image *pixels) {
+    draw_or_meter(r, bounces, shadows, false, pixels);
 }
 
 static double mean_of(const image *pixels) {
@@ -45,6 +52,10 @@ static double mean_of(const image *pixels) {
     for (int i = 0; i < PIXELS; i++)
         mean += (double)pixels->rgb[3 * i + 1] / PIXELS;
     return mean;
+}
+
+static double series_of(double rho, int bounces) {
+    return rho * (1 - pow(rho, bounces + 1)) / (1 - rho);
 }
 
 /* Under light of radiance 1 from everywhere, walls of albedo rho show rho + rho² + …, whatever the
@@ -57,7 +68,7 @@ static void even_light_keeps_the_geometric_series(void **state) {
         room r;
         image pixels;
         const double rho = albedos[k];
-        const double expected = rho * (1 - pow(rho, numbers[k] + 1)) / (1 - rho);
+        const double expected = series_of(rho, numbers[k]);
         open_room(cube_obj, "", rho, &r);
         light_evenly(&r);
         draw(&r, numbers[k], false, &pixels);
@@ -66,6 +77,42 @@ static void even_light_keeps_the_geometric_series(void **state) {
         image_free(&pixels);
         close_room(&r);
     }
+}
+
+/* What the exposure is found by has the light after bounces, too. */
+static void the_exposure_sees_bounces(void **state) {
+    (void)state;
+    room r;
+    image pixels;
+    open_room(cube_obj, "", 0.8, &r);
+    light_evenly(&r);
+    draw_or_meter(&r, 8, false, true, &pixels);
+    for (int p = 0; p < 3 * PIXELS; p++)
+        CHECK_WITHIN(fabs((double)pixels.rgb[p] / series_of(0.8, 8) - 1), 1e-4);
+    image_free(&pixels);
+    close_room(&r);
+}
+
+/* A pilaster on the wall that is seen has no back: the wall behind it sees its inside, and is dark.
+ * No point beside it may read that. */
+static void what_stands_on_a_wall_hides_it(void **state) {
+    (void)state;
+    static const char pilaster[] = "usemtl wall\n"
+                                   "v -0.3 -1 -0.7\nv 0.3 -1 -0.7\nv 0.3 1 -0.7\nv -0.3 1 -0.7\n"
+                                   "v -0.3 -1 -1\nv -0.3 -1 -0.7\nv -0.3 1 -0.7\nv -0.3 1 -1\n"
+                                   "v 0.3 -1 -0.7\nv 0.3 -1 -1\nv 0.3 1 -1\nv 0.3 1 -0.7\n"
+                                   "f 25 26 27 28\nf 29 30 31 32\nf 33 34 35 36\n";
+    char obj[sizeof cube_obj + sizeof pilaster];
+    room r;
+    image pixels;
+    snprintf(obj, sizeof obj, "%s%s", cube_obj, pilaster);
+    open_room(obj, "", 0.8, &r);
+    light_evenly(&r);
+    draw(&r, 8, false, &pixels);
+    for (int p = 0; p < 3 * PIXELS; p++)
+        CHECK_WITHIN(fabs((double)pixels.rgb[p] / series_of(0.8, 8) - 1), 0.02);
+    image_free(&pixels);
+    close_room(&r);
 }
 
 static void set_lamp(room *r, float height, scene_light *lamp) {
@@ -115,6 +162,8 @@ static void nothing_leaks_into_a_closed_room(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(even_light_keeps_the_geometric_series),
+        cmocka_unit_test(the_exposure_sees_bounces),
+        cmocka_unit_test(what_stands_on_a_wall_hides_it),
         cmocka_unit_test(the_power_of_a_lamp_is_kept),
         cmocka_unit_test(nothing_leaks_into_a_closed_room),
     };
