@@ -135,7 +135,7 @@ static void *read_object(const void *bytes, size_t size, const void *user) {
 /* Returns the hash of what surfels and rays depend on. */
 static file_hash key_of(const scene *s) {
     static const float sizes[] = { TRANSFER_RAYS, TRANSFER_LINKS, TRANSFER_SURFELS_MAX,
-                                   TRANSFER_SPACINGS };
+                                   TRANSFER_SPACINGS, TRANSFER_REACH };
     file_hash key = { 0, 0 };
     bake_add_settings(&key, sizes, sizeof sizes);
     file_hash_add(&key, s->vertices, s->vertex_count * sizeof *s->vertices);

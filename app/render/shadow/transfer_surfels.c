@@ -7,9 +7,6 @@
 
 #include <stdlib.h>
 
-/* Points on a surface read the surfels up to this many spacings away (docs/transfer.md). */
-#define REACH 2.1f
-
 void transfer_sequence(double k, double shift, double xy[2]) {
     xy[0] = 0.7548776662466927 * k + 0.6180339887498949 * shift;
     xy[1] = 0.5698402909980532 * k + 0.4142135623730950 * shift;
@@ -98,7 +95,7 @@ static void add_point(const scene *world, size_t instance, uint32_t triangle, lm
         position = vec_add(position, vec_scale(vec_load(corners[i].position), weights[i]));
     const lmp_transfer_surfel front = { position, normal,
                                         albedo_at(world, material, corners, weights),
-                                        REACH * s->spacing };
+                                        TRANSFER_REACH * s->spacing };
     s->at[s->count++] = front;
     if (is_double_sided(world, instance)) {
         s->at[s->count] = front;

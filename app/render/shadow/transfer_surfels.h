@@ -13,6 +13,9 @@ typedef struct transfer_surfels {
     float spacing; /* the root of the area that each stands for */
 } transfer_surfels;
 
+/* Points on a surface read the surfels up to this many spacings away. */
+#define TRANSFER_REACH 2.1f
+
 /* Makes the surfels of a scene: TRANSFER_SPACINGS of them span its extent, fewer where this would
  * be more than TRANSFER_SURFELS_MAX; double-sided surfaces have them on both sides. Without a
  * surface there is none. Returns false if memory ran out; free surfels->at in any case. */
