@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/sides.h"
 
+#include "app/scene/leak.h"
 #include "app/scene/random.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define OPEN_MOST  0.07 /* of the edges of a closed body that may be open: cracks */
+#define LEAK_MOST  0.125 /* of its inner light: what a body may lose by cracks and small holes */
 #define PAIRS_MOST ((size_t)1 << 22)
 #define NONE       UINT32_MAX
 
@@ -17,7 +18,7 @@ typedef struct body {
     float low[3], high[3];
     size_t triangles, open; /* open: edges without a triangle on the other side */
     uint32_t mesh;          /* of its first triangle */
-    bool flips;
+    bool closed, flips;
 } body;
 
 typedef struct sides {
@@ -198,8 +199,40 @@ static bool count_open_edges(sides *s) {
     return true;
 }
 
-static bool is_closed(const body *b) {
-    return (double)b->open <= OPEN_MOST * 3.0 * (double)b->triangles;
+/* --- closed bodies ---------------------------------------------------------------------------- */
+
+/* Copies the triangles to `sorted`, body after body; end[b + 1] becomes where those of body b end,
+ * and end[0] is 0. */
+static void sort_triangles(const sides *s, size_t *end, leak_triangle *sorted) {
+    end[0] = end[1] = 0;
+    for (size_t i = 1; i < s->body_count; i++)
+        end[i + 1] = end[i] + s->bodies[i - 1].triangles;
+    for (size_t m = 0; m < s->mesh_count; m++)
+        for (uint32_t i = 0; i < corner_count(s, m); i += 3) {
+            const uint32_t *const c = corners_of(s, m) + i;
+            leak_triangle *const to = &sorted[end[s->joined[c[0] - s->first] + 1]++];
+            for (int k = 0; k < 3; k++)
+                memcpy(to->corner[k], s->vertices[c[k] - s->first].position, sizeof to->corner[k]);
+        }
+}
+
+/* Finds which bodies are closed: those without open edges, and those that hold the light on their
+ * inner side. How many edges are open tells nothing: a fine sheet has few of them, and a closed
+ * body whose vertices do not quite meet has many. Returns false if memory ran out. */
+static bool find_closed(sides *s) {
+    size_t *const end = malloc((s->body_count + 2) * sizeof *end);
+    leak_triangle *const sorted = malloc((s->corner_count / 3 + 1) * sizeof *sorted);
+    const bool ok = end && sorted && count_open_edges(s);
+    if (ok)
+        sort_triangles(s, end, sorted);
+    for (size_t i = 0; ok && i < s->body_count; i++) {
+        body *const b = &s->bodies[i];
+        b->closed = b->open == 0 || leak_part(sorted + end[i], b->triangles,
+                                              b->inside < 0.0 ? 1 : -1, LEAK_MOST) <= LEAK_MOST;
+    }
+    free(end);
+    free(sorted);
+    return ok;
 }
 
 /* --- the decision ----------------------------------------------------------------------------- */
@@ -215,7 +248,7 @@ static bool holds(const body *outer, const body *inner) {
 static bool is_meant(const sides *s, const body *b) {
     for (size_t i = 0; i < s->body_count; i++) {
         const body *const other = &s->bodies[i];
-        if (other->inside > 0.0 && is_closed(other) &&
+        if (other->inside > 0.0 && other->closed &&
             (holds(b, other) || (other->mesh == b->mesh && holds(other, b))))
             return true;
     }
@@ -226,13 +259,13 @@ static void decide(sides *s, size_t clockwise) {
     size_t flipped = 0, right = 0;
     for (size_t i = 0; i < s->body_count; i++) {
         body *const b = &s->bodies[i];
-        if (!is_closed(b))
+        if (!b->closed)
             continue;
         b->flips = b->inside < 0.0 && (clockwise * s->body_count > PAIRS_MOST || !is_meant(s, b));
         *(b->flips ? &flipped : &right) += b->triangles;
     }
     for (size_t i = 0; i < s->body_count; i++)
-        if (flipped > right && !is_closed(&s->bodies[i]))
+        if (flipped > right && !s->bodies[i].closed)
             s->bodies[i].flips = true;
 }
 
@@ -303,7 +336,7 @@ bool sides_turn_outwards(scene_builder *builder, const uint32_t *meshes, size_t 
     size_t clockwise = 0;
     for (size_t i = 0; ok && i < s.body_count; i++)
         clockwise += s.bodies[i].inside < 0.0;
-    ok = ok && (clockwise == 0 || count_open_edges(&s));
+    ok = ok && (clockwise == 0 || find_closed(&s));
     if (ok && clockwise > 0) {
         decide(&s, clockwise);
         flip(&s);
@@ -314,10 +347,10 @@ bool sides_turn_outwards(scene_builder *builder, const uint32_t *meshes, size_t 
 
 bool sides_find(scene_builder *builder, uint32_t mesh, sides_of *found) {
     sides s;
-    const bool ok = find_bodies(&s, builder, &mesh, 1) && count_open_edges(&s);
+    const bool ok = find_bodies(&s, builder, &mesh, 1) && find_closed(&s);
     for (uint32_t i = 0; ok && i < corner_count(&s, 0); i += 3) {
         const body *const b = &s.bodies[s.joined[corners_of(&s, 0)[i] - s.first]];
-        found[i / 3] = !is_closed(b) ? SIDES_OPEN : b->inside < 0.0 ? SIDES_INWARD : SIDES_OUTWARD;
+        found[i / 3] = !b->closed ? SIDES_OPEN : b->inside < 0.0 ? SIDES_INWARD : SIDES_OUTWARD;
     }
     sides_free(&s);
     return ok;
