@@ -10,7 +10,8 @@
 
 #include <lampion/lampion.h>
 
-#define SCENE_LIGHTS_MAX 65536 /* from all sources together */
+#define SCENE_LIGHTS_MAX      65536 /* from all sources together */
+#define SCENE_MESH_LIGHTS_MAX 1024
 
 /* A vertex: 64 bytes, as the vertex shader reads them. */
 typedef struct scene_vertex {
@@ -211,6 +212,7 @@ typedef struct scene_options {
     int framing;         /* scene_framing */
     int leaves;          /* translucent or opaque */
     const char *variant; /* of materials, by name or number from 0; NULL: the file's default */
+    int mesh_lights;     /* the most lights of a glowing mesh, to SCENE_MESH_LIGHTS_MAX; 0: some */
     bool no_cache;       /* neither read nor write the cache */
     bool strict;         /* fail if any part of the file is unsupported */
     bool no_texels;      /* do not decode images, for commands that show none */
@@ -244,6 +246,14 @@ void scene_free(scene *scene);
           .argument = "NAME",                                                                      \
           .help = "a variant of the materials of a glTF, by name or number from 0 (info lists "    \
                   "them)" },                                                                       \
+        { .name = "mesh-lights",                                                                   \
+          .kind = CLI_INT,                                                                         \
+          .target = &(variable).mesh_lights,                                                       \
+          .argument = "N",                                                                         \
+          .help = "the most lights that stand for a glowing mesh of the file; 0: 40, or fewer "    \
+                  "where more than 25 meshes glow",                                                \
+          .minimum = 0,                                                                            \
+          .maximum = SCENE_MESH_LIGHTS_MAX },                                                      \
         { .name = "leaves",                                                                        \
           .kind = CLI_CHOICE,                                                                      \
           .target = &(variable).leaves,                                                            \

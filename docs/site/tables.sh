@@ -115,6 +115,7 @@ measure() {
         ;;
     accuracy.bands) test_prints unit/test_unit_accuracy 'errors_grow*' | named "$1" ;;
     accuracy.surface) test_prints unit/test_unit_accuracy 'the_last_digits*' | named "$1" ;;
+    areas.bent) test_prints program/test_program_mesh_lights 'more_lights*' | named "$1" ;;
     areas.plates) test_prints unit/test_unit_area_plates 'plates_under*' | named "$1" ;;
     fields.error) test_prints unit/test_unit_field_error '*reach*' | named "$1" ;;
     preintegration-notes.lobes)
@@ -142,7 +143,7 @@ measure() {
 # is_quick TABLE: takes no more than a few seconds.
 is_quick() {
     case $1 in
-    layers.sheen | ggx.energy | preintegration-notes.lobes | transfer.*) ;;
+    areas.bent | layers.sheen | ggx.energy | preintegration-notes.lobes | transfer.*) ;;
     *) return 1 ;;
     esac
 }

@@ -8,14 +8,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-file_hash cache_key(const char *folder, const char *name, const void *data, size_t size, int up,
-                    const char *variant) {
-    file_hash key = { BLOB_VERSION, (uint64_t)up };
+file_hash cache_key(const char *folder, const char *name, const void *data, size_t size,
+                    const scene_options *options) {
+    file_hash key = { BLOB_VERSION, (uint64_t)options->up | (uint64_t)options->mesh_lights << 32 };
     file_hash_add(&key, folder, strlen(folder));
     file_hash_add(&key, name, strlen(name));
     file_hash_add(&key, data, size);
-    if (variant)
-        file_hash_add(&key, variant, strlen(variant));
+    if (options->variant)
+        file_hash_add(&key, options->variant, strlen(options->variant));
     return key;
 }
 

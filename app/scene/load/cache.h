@@ -7,10 +7,10 @@
 #include "app/base/file_hash.h"
 #include "app/scene/sources.h"
 
-/* Returns the key of a scene file: its content and path, its up axis, the requested variant of its
- * materials (or NULL), and the importer's version. */
-file_hash cache_key(const char *folder, const char *name, const void *data, size_t size, int up,
-                    const char *variant);
+/* Returns the key of a scene file: its content and path, the importer's version, and what is asked
+ * of it: the up axis, the variant of materials, and how many lights a mesh may become. */
+file_hash cache_key(const char *folder, const char *name, const void *data, size_t size,
+                    const scene_options *options);
 
 /* Maps the cached blob if it exists, is valid, and every file it was made from is unchanged. */
 bool cache_load(const file_hash *key, source_set *sources, void **block, size_t *size);

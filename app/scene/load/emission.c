@@ -10,15 +10,17 @@
 
 #include <stdlib.h>
 
-/* The most lights of a mesh, and of all meshes that are more than one light each; the most faces of
- * one of its pieces, and the most triangles of a piece whose faces are looked for. */
+/* Unless asked for another number, the most lights of a mesh, and of all meshes that are more than
+ * one light each; the most faces of one of its pieces, and the most triangles of a piece whose
+ * faces are looked for. */
 enum { LIGHTS_MOST = 40, LIGHTS_MOST_ALL = 1024, FACES_MOST = 8, TRIANGLES_MOST = 1 << 16 };
 
 /* A triangle emits nothing below this part of the mesh's brightest: compression blurs black. */
 static const float darkest = 1.0f / 500;
 
-/* The part of a mesh's power that the strongest of its pieces have; the others add theirs to it. */
-static const double strongest_part = 0.99;
+/* The part of a mesh's power that the strongest of its pieces have, and of the strongest piece's
+ * that each of the others has at most; these add theirs to it. */
+static const double strongest_part = 0.99, weak_part = 0.1;
 
 /* How much of a piece's surface faces one way if a rectangle stands for it, not a sphere. */
 static const double flat_part = 0.9;
@@ -266,7 +268,9 @@ static bool find_strongest(piece *pieces, size_t count, size_t most, size_t *kep
         all += rank[i].power;
     }
     qsort(rank, count, sizeof *rank, compare_ranked);
-    for (*kept = 0; *kept < count && *kept < most && sum < strongest_part * all; ++*kept) {
+    for (*kept = 0; *kept < count && *kept < most; ++*kept) {
+        if (sum >= strongest_part * all && rank[*kept].power < weak_part * rank[0].power)
+            break;
         pieces[*kept] = rank[*kept].piece;
         sum += rank[*kept].power;
     }
@@ -281,7 +285,7 @@ static lmp_rgb scaled(lmp_rgb radiance, double factor) {
 }
 
 /* Makes the lights of a mesh, at most `most`. Returns false if memory ran out. */
-static bool make_lights(glowing *g, size_t most, lmp_light lights[LIGHTS_MOST], size_t *made) {
+static bool make_lights(glowing *g, size_t most, lmp_light *lights, size_t *made) {
     piece *pieces;
     size_t count;
     *made = 0;
@@ -303,12 +307,9 @@ static bool make_lights(glowing *g, size_t most, lmp_light lights[LIGHTS_MOST], 
     return ok;
 }
 
-static bool add_lights(scene_builder *builder, glowing *g, size_t instance, size_t most,
-                       const char *subject, base_error *error) {
-    lmp_light lights[LIGHTS_MOST];
-    size_t made;
-    if (!make_lights(g, most, lights, &made))
-        return base_fail(error, subject, "does not fit into memory");
+/* Adds lights that stand for an instance. */
+static bool add_made(scene_builder *builder, const glowing *g, size_t instance,
+                     const lmp_light *lights, size_t made, const char *subject, base_error *error) {
     for (size_t i = 0; i < made; i++) {
         scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
         if (!light)
@@ -323,6 +324,17 @@ static bool add_lights(scene_builder *builder, glowing *g, size_t instance, size
                              wrong.text);
     }
     return true;
+}
+
+static bool add_lights(scene_builder *builder, glowing *g, size_t instance, size_t most,
+                       const char *subject, base_error *error) {
+    lmp_light *lights = malloc(most * sizeof *lights);
+    size_t made = 0;
+    const bool ok = (lights && make_lights(g, most, lights, &made)) ||
+                    base_fail(error, subject, "does not fit into memory");
+    const bool added = ok && add_made(builder, g, instance, lights, made, subject, error);
+    free(lights);
+    return added;
 }
 
 /* --- all meshes ------------------------------------------------------------------------------- */
@@ -354,7 +366,8 @@ static size_t most_of_each(const scene *world, const scene_material *materials) 
     return each < 1 ? 1 : each > LIGHTS_MOST ? LIGHTS_MOST : each;
 }
 
-bool emission_add_lights(scene_builder *builder, const char *subject, base_error *error) {
+bool emission_add_lights(scene_builder *builder, size_t most, const char *subject,
+                         base_error *error) {
     const scene_material *materials = builder_items(builder, BLOB_MATERIALS);
     scene world;
     emission_maps maps;
@@ -363,7 +376,8 @@ bool emission_add_lights(scene_builder *builder, const char *subject, base_error
     builder_geometry(builder, &world);
     if (!emission_maps_create(builder, &world, &maps))
         return base_fail(error, subject, "does not fit into memory");
-    const size_t most = most_of_each(&world, materials);
+    if (most == 0)
+        most = most_of_each(&world, materials);
     bool ok = true;
     for (size_t i = 0; ok && i < world.instance_count; i++) {
         const scene_material *material = &materials[world.meshes[world.instances[i].mesh].material];

@@ -9,7 +9,9 @@
  * which is the mean over a triangle where there is an emission map, and twice that where it is
  * double-sided and open. Each piece of a mesh, whose triangles hang together, is its flat faces, if
  * these are few, or a tube if it is long and round; else a rectangle before it, or the sphere
- * around it. Of many pieces the strongest have the power of all. */
-bool emission_add_lights(scene_builder *builder, const char *subject, base_error *error);
+ * around it. Of many pieces the strongest have the power of all. A mesh becomes at most `most`
+ * lights, 1 to SCENE_MESH_LIGHTS_MAX, or with 0 a number that suits how many meshes shine. */
+bool emission_add_lights(scene_builder *builder, size_t most, const char *subject,
+                         base_error *error);
 
 #endif

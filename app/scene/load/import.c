@@ -41,7 +41,7 @@ typedef struct import_job {
     void *data;
     size_t size;
     origin_reader *read;
-    int up;
+    int up, mesh_lights; /* as in scene_options */
     source_set sources;
 } import_job;
 
@@ -171,7 +171,8 @@ static bool import_in_child(void *context, int output, base_error *error) {
         !origin_read(job->read, job->data, job->size, &job->sources, &builder, error))
         return false;
     up_stand(&builder, job->up);
-    if (!check_made(job, &builder, error) || !emission_add_lights(&builder, job->path, error) ||
+    if (!check_made(job, &builder, error) ||
+        !emission_add_lights(&builder, (size_t)job->mesh_lights, job->path, error) ||
         !check_made(job, &builder, error))
         return false;
     if (!add_sources(job, &builder) || builder.out_of_memory || !write_blob(&builder, output))
@@ -292,11 +293,11 @@ bool import_scene(const char *path, const scene_options *options, scene *s, base
     size_t size = 0;
     bool ok = prepare(path, &job, error), cached = false;
     job.up = options->up;
+    job.mesh_lights = options->mesh_lights;
     job.sources.variant = options->variant;
     ok = ok && may_have_variants(&job, error);
     if (ok) {
-        const file_hash key =
-            cache_key(job.folder, job.name, job.data, job.size, job.up, job.sources.variant);
+        const file_hash key = cache_key(job.folder, job.name, job.data, job.size, options);
         cached = !no_cache && cache_load(&key, &job.sources, &block, &size);
         sources_free(&job.sources);
         ok = cached || import_fresh(&job, &block, &size, error);
