@@ -31,7 +31,7 @@ static lmp_vec3 scaled(lmp_vec3 v, float factor) {
 }
 
 /* Makes rectangles around the spheres' positions that face the points; the same forty times as far;
- * through the points' floor, whose surfaces look up and aside; and disks. */
+ * through the points' floor, whose surfaces look up and aside; and disks and tubes. */
 static void areas_create(bench_inputs *in) {
     for (int i = 0; i < BENCH_LIGHTS; i++) {
         const lmp_vec3 at = in->lights[i].position;
@@ -52,6 +52,12 @@ static void areas_create(bench_inputs *in) {
         in->areas.disk[i].kind = LMP_LIGHT_DISK;
         in->areas.disk[i].direction = scaled(at, -1 / far);
         in->areas.disk[i].radius = size;
+        in->areas.tube[i] = light;
+        in->areas.tube[i].kind = LMP_LIGHT_TUBE;
+        in->areas.tube[i].two_sided = false;
+        in->areas.tube[i].radius = 0.1f * size;
+        in->areas.tube_small[i] = in->areas.tube[i];
+        in->areas.tube_small[i].position = scaled(at, 40);
     }
 }
 

@@ -128,6 +128,12 @@ static void run_shade_rectangle_cut(const bench_batch *b) {
 static void run_shade_disk(const bench_batch *b) {
     run_shade_areas(b, b->areas->disk);
 }
+static void run_shade_tube(const bench_batch *b) {
+    run_shade_areas(b, b->areas->tube);
+}
+static void run_shade_tube_small(const bench_batch *b) {
+    run_shade_areas(b, b->areas->tube_small);
+}
 static void run_shade_environment(const bench_batch *b) {
     const lmp_shade_settings settings = { .bands = b->bands };
     const lmp_environment environment = { b->vectors, b->bands };
@@ -259,7 +265,9 @@ static double slots_shade_ggx(int n) {
 /* Doubles, which take two slots each. A rectangle's place, its corners, edges and angles, and what
  * the diffuse lobe receives; its solid angle; a lobe's slopes, then its bands. Four points: their
  * directions and strengths; a lobe's cosines, then its bands. The horizon: crossings, and the
- * angles of what it leaves. A disk's nodes, and a lobe's bands at each. */
+ * angles of what it leaves. A disk's nodes, and a lobe's bands at each. A tube's frame, edges and
+ * ends; what the diffuse lobe receives; the solid angle; nodes; a lobe's cosines, then its bands.
+ */
 static double slots_shade_rectangle(int n) {
     return 2 * (40 + 336 + 48 + 42 + 105 + 92 + 144 + 57 * later(n));
 }
@@ -271,6 +279,9 @@ static double slots_shade_cut(int n) {
 }
 static double slots_shade_disk(int n) {
     return 2 * (40 + 60 + 42 + 32 * (60 + 12 + 4.5 * n));
+}
+static double slots_shade_tube(int n) {
+    return 2 * (70 + 45 + 2 * 70 + 40 + 110 + 2 * 64 + 2 * 60 + 70 + (34 + 12 * 4.5) * later(n));
 }
 /* A lookup of floats (products of 16-bit coefficients with their weights are integers):
  * coordinates, weights of two splines, rounding, four rows; before that, an angle. */
@@ -347,6 +358,10 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
       .lights = BENCH_LIGHTS, .one_layout = true },
     { "shade-disk", values_lobe, slots_shade_disk, run_shade_disk, NULL, .lights = BENCH_LIGHTS,
       .one_layout = true },
+    { "shade-tube", values_lobe, slots_shade_tube, run_shade_tube, NULL, .lights = BENCH_LIGHTS,
+      .one_layout = true },
+    { "shade-tube-small", values_lobe, slots_shade_tube, run_shade_tube_small, NULL,
+      .lights = BENCH_LIGHTS, .one_layout = true },
     { "shade-preintegrated", values_lobe, slots_shade_lobe, run_shade_preintegrated,
       bench_paper_shade, .lights = BENCH_LIGHTS, .one_layout = true, .table = BENCH_TABLE_LOBES },
     { "shade-brdf", values_lobe, slots_shade_brdf, run_shade_preintegrated, bench_paper_shade,

@@ -21,10 +21,11 @@ enum {
     BENCH_OUTPUT_FLOATS = 6144
 };
 
-/* Rectangles that are 23 degrees wide, that look small, and that the horizon cuts; and disks that
- * are as wide. */
+/* Rectangles that are 23 degrees wide, that look small, and that the horizon cuts; disks and tubes
+ * that are as wide; and tubes that look small. */
 typedef struct bench_areas {
     lmp_light large[BENCH_LIGHTS], small[BENCH_LIGHTS], cut[BENCH_LIGHTS], disk[BENCH_LIGHTS];
+    lmp_light tube[BENCH_LIGHTS], tube_small[BENCH_LIGHTS];
 } bench_areas;
 
 /* The inputs and outputs of a kernel. */
@@ -69,7 +70,7 @@ typedef struct bench_kernel {
     bool large;    /* does little but store: measured on large outputs, too */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 31 };
+enum { BENCH_KERNELS = 33 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
 /* --- bench_paper.c: elements of the same work by the paper's formulas, one at a time ---------- */

@@ -83,6 +83,7 @@ const lmpi_kernels LMPI_KERNELS = {
     .shade.zonal = kernel_shade_zonal,
     .shade.polygons = kernel_shade_polygons,
     .shade.disk = kernel_shade_disk,
+    .shade.tube = kernel_shade_tube,
     .shade.field = kernel_shade_field,
     .shade.preintegrated_lobe = kernel_shade_preintegrated_lobe,
     .shade.preintegrated_brdf = kernel_shade_preintegrated_brdf,

@@ -48,7 +48,7 @@ LMPI_INLINE vd disk_open(const lmpi_kernel_disk *light, const flat_place *place,
 }
 
 /* Adds to each lobe's sum, and to the solid angle, what nodes from `first` on contribute, if the
- * front is seen. P'_l is l k_l times a monic u_l; Clenshaw's sum goes from the last band on. */
+ * front is seen. */
 LMPI_INLINE void disk_nodes(int first, const lmpi_kernel_disk *light, const flat_surfaces *at,
                             const flat_place *place, vd *solid_angle, vd *sums) {
     vd w[DISK_TOGETHER][3], g[DISK_TOGETHER][3];
@@ -67,23 +67,11 @@ LMPI_INLINE void disk_nodes(int first, const lmpi_kernel_disk *light, const flat
             *solid_angle + vd_dot(place->inner, g[i]) / (1.0 + vd_dot(place->inner, w[i]));
     }
     for (int k = 0; k < at->lobe_count; k++) {
-        const float *weights = flat_weights(at, k);
-        vd z[DISK_TOGETHER], y1[DISK_TOGETHER], y2[DISK_TOGETHER];
-        LMPI_UNROLL for (int i = 0; i < DISK_TOGETHER; i++) {
-            z[i] = vd_dot(at->axis[k], w[i]);
-            y1[i] = y2[i] = vd_set(0);
-        }
-        LMPI_ROLLED for (int l = at->bands - 1; l >= 1; l--) {
-            const vd weight =
-                vd_load(weights + (ptrdiff_t)l * LMPI_LANES) * at->tables->to_slope[l];
-            LMPI_UNROLL for (int i = 0; i < DISK_TOGETHER; i++) {
-                const vd y0 = (weight - at->tables->of_slope[l] * y2[i]) + z[i] * y1[i];
-                y2[i] = y1[i];
-                y1[i] = y0;
-            }
-        }
+        vd z[DISK_TOGETHER], slopes[DISK_TOGETHER];
+        LMPI_UNROLL for (int i = 0; i < DISK_TOGETHER; i++) z[i] = vd_dot(at->axis[k], w[i]);
+        flat_slopes(DISK_TOGETHER, at->bands, at->tables, flat_weights(at, k), z, slopes);
         LMPI_UNROLL for (int i = 0; i < DISK_TOGETHER; i++) sums[k] =
-            sums[k] + vd_dot(at->axis[k], g[i]) * y1[i];
+            sums[k] + vd_dot(at->axis[k], g[i]) * slopes[i];
     }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* flat.h - flat lights, as the kernels take them. */
+/* flat.h - lights that are areas, as the kernels take them. */
 #ifndef LAMPION_KERNELS_FLAT_H
 #define LAMPION_KERNELS_FLAT_H
 
@@ -8,8 +8,9 @@
 /* Points that stand for a light that looks small. */
 #define LMPI_FLAT_POINTS 4
 
-/* What polygons and disks share. Vectors begin at `position`, and but for it lengths are multiples
- * of 1 / per_unit, a power of two near the light's radius: powers of them then fit floats. */
+/* What polygons and disks, which are flat, share. Vectors begin at `position`, and but for it
+ * lengths are multiples of 1 / per_unit, a power of two near the light's radius: powers of them
+ * then fit floats. */
 typedef struct lmpi_kernel_flat {
     lmp_vec3 position;
     double per_unit;
@@ -38,6 +39,14 @@ typedef struct lmpi_kernel_disk {
     lmpi_kernel_flat flat;
     double node[LMPI_DISK_NODES][3], along[LMPI_DISK_NODES][3];
 } lmpi_kernel_disk;
+
+/* A light around a line: half of the line is half * axis, of which the latter is unit. */
+typedef struct lmpi_kernel_tube {
+    lmp_vec3 position;
+    double per_unit; /* as of flat lights */
+    double axis[3], half, radius;
+    lmp_rgb radiance;
+} lmpi_kernel_tube;
 
 /* What a kernel leaves to its caller. */
 enum { LMPI_LEFT_DIFFUSE = 1, LMPI_LEFT_LOBES = 2 };

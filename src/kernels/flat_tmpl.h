@@ -52,6 +52,9 @@ static inline void flat_prepare(int bands, const float *window, flat_tables *tab
     }
 }
 
+/* The most nodes side by side. */
+enum { FLAT_NODES = 6 };
+
 /* Beyond so many radii a light that the horizon may cut is points, too. */
 #define FLAT_TINY 1e6
 
@@ -105,6 +108,25 @@ LMPI_INLINE void flat_locate(const lmpi_kernel_flat *light, const flat_surfaces 
     const vd cut = vd_select_less(vd_set(tiny * tiny), distance2, zero, lit);
     place->outlined_diffuse = vd_select_less(vd_abs(place->up), vd_set(radius), cut, near);
     place->outlined_lobes = vd_select_less(vd_set(far_lobes * far_lobes), distance2, zero, lit);
+}
+
+/* --- nodes ------------------------------------------------------------------------------------ */
+
+/* Computes what a lobe's sum over bands from l = 1 on is at nodes of an outline, for the cosines z
+ * of its axis there: times the part of the axis along w x dw these sum to ∫ P_l. P'_l is l k_l
+ * times a monic u_l; Clenshaw's sum goes from the last band on. */
+LMPI_INLINE void flat_slopes(int count, int bands, const flat_tables *tables, const float *weights,
+                             const vd *z, vd *slopes) {
+    vd y2[FLAT_NODES];
+    LMPI_UNROLL for (int i = 0; i < count; i++) slopes[i] = y2[i] = vd_set(0);
+    LMPI_ROLLED for (int l = bands - 1; l >= 1; l--) {
+        const vd weight = vd_load(weights + (ptrdiff_t)l * LMPI_LANES) * tables->to_slope[l];
+        LMPI_UNROLL for (int i = 0; i < count; i++) {
+            const vd y0 = (weight - tables->of_slope[l] * y2[i]) + z[i] * slopes[i];
+            y2[i] = slopes[i];
+            slopes[i] = y0;
+        }
+    }
 }
 
 /* --- points ----------------------------------------------------------------------------------- */

@@ -162,38 +162,39 @@ LMPI_INLINE vd polygon_solid_angle(int count, const polygon_seen *seen, vd side)
     return 2.0 * side * polygon_argument(re, im);
 }
 
-/* Returns a lobe's response from l = 1 on; weights are LMPI_LANES apart. */
-LMPI_INLINE vd polygon_lobe(int count, int bands, const flat_tables *tables,
-                            const polygon_seen *seen, const vd q[3], const float *weights) {
-    vd x[LMPI_POLYGON_CORNERS], p[LMPI_POLYGON_CORNERS], p_below[LMPI_POLYGON_CORNERS];
-    vd begin[LMPI_POLYGON_CORNERS], end[LMPI_POLYGON_CORNERS], z[LMPI_POLYGON_CORNERS],
-        z2[LMPI_POLYGON_CORNERS];
+/* Edges as a lobe sees them, of which every `step`-th from the first on counts; the corners are
+ * where they begin and, the next one, end. The cosine of the axis with each corner, the slopes of
+ * that at both ends of an edge, its cosine with the edge's pole, and the edge's angle. */
+typedef struct polygon_edges {
+    vd x[LMPI_POLYGON_CORNERS], begin[LMPI_POLYGON_CORNERS], end[LMPI_POLYGON_CORNERS];
+    vd z[LMPI_POLYGON_CORNERS], angle[LMPI_POLYGON_CORNERS];
+} polygon_edges;
+
+/* Returns what edges contribute to a lobe's response from l = 1 on; weights are LMPI_LANES
+ * apart. */
+LMPI_INLINE vd polygon_bands(int count, int step, int bands, const flat_tables *tables,
+                             const polygon_edges *edges, const float *weights) {
+    vd p[LMPI_POLYGON_CORNERS], p_below[LMPI_POLYGON_CORNERS], z2[LMPI_POLYGON_CORNERS];
     vd d[LMPI_POLYGON_CORNERS][4], sum[LMPI_POLYGON_CORNERS], all = vd_set(0);
     const vd first = vd_load(weights + LMPI_LANES);
     LMPI_UNROLL for (int i = 0; i < count; i++) {
-        const int next = i + 1 < count ? i + 1 : 0;
-        vd slope[3];
-        vd_cross(q, seen->normal[i], slope);
-        begin[i] = vd_dot(slope, seen->corner[i]) * seen->per_length[i];
-        end[i] = vd_dot(slope, seen->corner[next]) * seen->per_length[next];
-        x[i] = vd_dot(q, seen->corner[i]) * seen->per_length[i];
-        z[i] = vd_dot(q, seen->normal[i]);
-        z2[i] = z[i] * z[i];
         p[i] = vd_set(1);
-        p_below[i] = d[i][0] = d[i][1] = d[i][2] = vd_set(0);
-        d[i][3] = seen->angle[i];
-        sum[i] = first * seen->angle[i];
+        p_below[i] = vd_set(0);
+    }
+    LMPI_UNROLL for (int i = 0; i < count; i += step) {
+        z2[i] = edges->z[i] * edges->z[i];
+        d[i][0] = d[i][1] = d[i][2] = vd_set(0);
+        d[i][3] = edges->angle[i];
+        sum[i] = first * edges->angle[i];
     }
     LMPI_ROLLED for (int l = 0; l + 2 < bands; l++) {
         const vd weight = vd_load(weights + (ptrdiff_t)(l + 2) * LMPI_LANES);
-        vd p_next[LMPI_POLYGON_CORNERS];
-        LMPI_UNROLL for (int i = 0; i < count; i++) {
+        LMPI_UNROLL for (int i = 0; i < count; i += step) {
             const int next = i + 1 < count ? i + 1 : 0;
-            const vd ends = p[next] * end[i] - p[i] * begin[i];
+            const vd ends = p[next] * edges->end[i] - p[i] * edges->begin[i];
             const vd d_next = ((tables->same[l] - tables->less[l] * z2[i]) * d[i][2] -
                                tables->below[l] * d[i][0]) -
                               ends;
-            p_next[i] = x[i] * p[i] - tables->of_p[l] * p_below[i];
             sum[i] = sum[i] + weight * d_next;
             d[i][0] = d[i][1];
             d[i][1] = d[i][2];
@@ -201,12 +202,30 @@ LMPI_INLINE vd polygon_lobe(int count, int bands, const flat_tables *tables,
             d[i][3] = d_next;
         }
         LMPI_UNROLL for (int i = 0; i < count; i++) {
+            const vd p_next = edges->x[i] * p[i] - tables->of_p[l] * p_below[i];
             p_below[i] = p[i];
-            p[i] = p_next[i];
+            p[i] = p_next;
         }
     }
-    LMPI_UNROLL for (int i = 0; i < count; i++) all = all + z[i] * sum[i];
+    LMPI_UNROLL for (int i = 0; i < count; i += step) all = all + edges->z[i] * sum[i];
     return all;
+}
+
+/* Returns a lobe's response from l = 1 on. */
+LMPI_INLINE vd polygon_lobe(int count, int bands, const flat_tables *tables,
+                            const polygon_seen *seen, const vd q[3], const float *weights) {
+    polygon_edges edges;
+    LMPI_UNROLL for (int i = 0; i < count; i++) {
+        const int next = i + 1 < count ? i + 1 : 0;
+        vd slope[3];
+        vd_cross(q, seen->normal[i], slope);
+        edges.begin[i] = vd_dot(slope, seen->corner[i]) * seen->per_length[i];
+        edges.end[i] = vd_dot(slope, seen->corner[next]) * seen->per_length[next];
+        edges.x[i] = vd_dot(q, seen->corner[i]) * seen->per_length[i];
+        edges.z[i] = vd_dot(q, seen->normal[i]);
+        edges.angle[i] = seen->angle[i];
+    }
+    return polygon_bands(count, 1, bands, tables, &edges, weights);
 }
 
 #endif

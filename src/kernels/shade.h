@@ -66,6 +66,11 @@ typedef struct lmpi_shade_kernels {
     void (*disk)(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
                  const lmpi_kernel_disk *light, size_t count,
                  const lmpi_kernel_accumulated *accumulated, float *left);
+    /* Does `zonal` with a tube from beside it, where the ends look small enough for the lobes, and
+     * the horizon does not cut it; left[i] as of disks. */
+    void (*tube)(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
+                 const lmpi_kernel_tube *light, size_t count,
+                 const lmpi_kernel_accumulated *accumulated, float *left);
     /* Adds what the lobes reflect of light given by its coefficients at each surface, 3 bands^2
      * values, planar and readable like planes; diffuse[l] are the factors of the diffuse lobe. */
     void (*field)(int bands, const float *window, const float *diffuse,

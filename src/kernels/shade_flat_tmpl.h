@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* shade_flat_tmpl.h - shades lobes of surfaces under flat lights: the diffuse one by the closed
+/* shade_flat_tmpl.h - shades lobes of surfaces under areas: the diffuse one by the closed
  * form of the outline above the horizon, Phong's by sums over bands along the edges. Where a light
  * looks small, a few of its points serve, at distances from which nobody sees the difference: the
  * sums along the edges would cancel, and take longer.
@@ -11,6 +11,7 @@
 
 #include "src/kernels/disk_tmpl.h"
 #include "src/kernels/polygon_tmpl.h"
+#include "src/kernels/tube_tmpl.h"
 #include "src/kernels/zonal_sums_tmpl.h"
 
 /* Bands of all lobes whose weights are kept for a block of surfaces. */
@@ -60,11 +61,18 @@ POLYGON_OUTLINE(8)
 
 /* --- surfaces --------------------------------------------------------------------------------- */
 
-/* A light: a polygon or, unless it is NULL, a disk. */
+/* A light, of which one is not NULL. */
 typedef struct flat_light {
     const lmpi_kernel_polygon *polygon;
     const lmpi_kernel_disk *disk;
+    const lmpi_kernel_tube *tube;
 } flat_light;
+
+LMPI_INLINE lmp_rgb flat_radiance(flat_light light) {
+    return light.tube   ? light.tube->radiance
+           : light.disk ? light.disk->flat.radiance
+                        : light.polygon->flat.radiance;
+}
 
 LMPI_INLINE void flat_outline(flat_light light, const flat_surfaces *at, const flat_place *place,
                               vd *responses, vd *left) {
@@ -116,7 +124,8 @@ LMPI_INLINE void flat_add(lmp_rgb rgb, vd response, size_t e, float *const plane
     vd_store(planes[2] + e, vd_load(planes[2] + e) + (double)rgb.b * response);
 }
 
-/* A call: the lobes from `first` on, of which `lobes` fit at once, and polygons or a disk. */
+/* A call: the lobes from `first` on, of which `lobes` fit at once, and polygons, a disk or a
+ * tube. */
 typedef struct flat_work {
     int bands, first, lobes;
     const flat_tables *tables;
@@ -124,6 +133,7 @@ typedef struct flat_work {
     const lmpi_kernel_polygon *polygons;
     size_t light_count;
     const lmpi_kernel_disk *disk;
+    const lmpi_kernel_tube *tube;
     float *left;
     const lmpi_kernel_accumulated *accumulated;
     vf *weights;
@@ -154,12 +164,14 @@ LMPI_INLINE void flat_shade(const flat_work *work, size_t e, int lane) {
     for (int k = 0; k < work->lobes; k++)
         flat_unit(&work->surfaces->lobe[work->first + k].axis, e, at.axis[k]);
     for (size_t i = 0; i < work->light_count; i++) {
-        const flat_light light = { work->disk ? NULL : work->polygons + i, work->disk };
-        const lmp_rgb radiance =
-            work->disk ? work->disk->flat.radiance : light.polygon->flat.radiance;
+        const flat_light light = { work->left ? NULL : work->polygons + i, work->disk, work->tube };
+        const lmp_rgb radiance = flat_radiance(light);
         vd responses[FLAT_RESPONSES], left;
-        flat_respond(light, &at, responses, &left);
-        if (work->disk)
+        if (light.tube)
+            tube_respond(light.tube, &at, responses, &left);
+        else
+            flat_respond(light, &at, responses, &left);
+        if (work->left)
             vd_store(work->left + e, left);
         if (work->first == 0)
             flat_add(radiance, responses[0] * (1 / 3.14159265358979323846), e,
@@ -206,6 +218,17 @@ static void kernel_shade_disk(int bands, const float *window, const lmpi_kernel_
     flat_work work = { .surfaces = surfaces,
                        .light_count = 1,
                        .disk = light,
+                       .left = left,
+                       .accumulated = accumulated };
+    flat_call(bands, window, count, &work);
+}
+
+static void kernel_shade_tube(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
+                              const lmpi_kernel_tube *light, size_t count,
+                              const lmpi_kernel_accumulated *accumulated, float *left) {
+    flat_work work = { .surfaces = surfaces,
+                       .light_count = 1,
+                       .tube = light,
                        .left = left,
                        .accumulated = accumulated };
     flat_call(bands, window, count, &work);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* flat.c - packs flat areas for the kernels. */
+/* flat.c - packs areas for the kernels. */
 #include "src/light/seen.h"
 
 static_assert(LMPI_POLYGON_CORNERS >= LMP_LIGHT_CORNERS_MAX && LMPI_POLYGON_CORNERS % 2 == 0,
@@ -149,4 +149,19 @@ void lmpi_area_pack_disk(const lmpi_area *area, lmpi_kernel_disk *disk) {
         s = s * step[0] + c * step[1];
         c = next;
     }
+}
+
+/* --- tubes ------------------------------------------------------------------------------------ */
+
+void lmpi_area_pack_tube(const lmpi_area *area, lmpi_kernel_tube *tube) {
+    const double radius = (double)area->light->radius;
+    int exponent = 0;
+    frexp(area->half + radius, &exponent);
+    const double per_unit = ldexp(1, -exponent);
+    tube->position = area->light->position;
+    tube->per_unit = per_unit;
+    put(area->axis, tube->axis);
+    tube->half = area->half * per_unit;
+    tube->radius = radius * per_unit;
+    tube->radiance = area->light->radiance;
 }

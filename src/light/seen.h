@@ -35,9 +35,10 @@ typedef struct lmpi_area {
 
 void lmpi_area_prepare(const lmp_light *light, lmpi_area *area);
 
-/* Pack for the kernels an area with corners, and a disk. */
+/* Pack for the kernels an area with corners, a disk, and a tube. */
 void lmpi_area_pack_polygon(const lmpi_area *area, lmpi_kernel_polygon *polygon);
 void lmpi_area_pack_disk(const lmpi_area *area, lmpi_kernel_disk *disk);
+void lmpi_area_pack_tube(const lmpi_area *area, lmpi_kernel_tube *tube);
 
 /* Sees an area. A loop is not closed (loop.h), because irradiance does not need it. */
 void lmpi_area_see(const lmpi_area *area, lmp_vec3 point, lmpi_seen *seen);

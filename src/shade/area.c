@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* area.c - adds the light of areas to what a chunk of surfaces has accumulated: of flat ones by
- * kernels, of tubes, and what the kernel of disks leaves, surface by surface. */
+/* area.c - adds the light of areas to what a chunk of surfaces has accumulated: by kernels, and
+ * surface by surface what those of disks and tubes leave. */
 #include "src/kernels/dispatch.h"
 #include "src/lobe/response.h"
 #include "src/shade/method.h"
@@ -63,13 +63,13 @@ static int phong_count_of(const shade_chunk *chunk) {
     return chunk->is_matte ? 0 : chunk->phong_count;
 }
 
-/* Adds those parts of the light of an area that are left, or all if left is NULL, on all surfaces;
- * neighbors often have the same material. */
-static void add_area_everywhere(const shade_prepared *prepared, const shade_chunk *chunk,
-                                lobe_weights *lobes, const lmpi_area *area, const float *left) {
+/* Adds those parts of the light of an area that are left on surfaces; neighbors often have the same
+ * material. */
+static void add_left(const shade_prepared *prepared, const shade_chunk *chunk, lobe_weights *lobes,
+                     const lmpi_area *area, const float *left) {
     const int phong_count = phong_count_of(chunk);
     for (size_t i = 0; i < chunk->count; i++) {
-        const int parts = left ? (int)left[i] : LMPI_LEFT_DIFFUSE | LMPI_LEFT_LOBES;
+        const int parts = (int)left[i];
         if (parts == 0)
             continue;
         for (int k = 0; k < phong_count; k++) {
@@ -87,12 +87,21 @@ static lmpi_kernel_surfaces surfaces_of(const shade_chunk *chunk) {
     return surfaces;
 }
 
-static LMPI_NOINLINE void add_disk(const shade_prepared *prepared, const shade_chunk *chunk,
-                                   const lmpi_area *area, float *left) {
+static void add_disk(const shade_prepared *prepared, const shade_chunk *chunk,
+                     const lmpi_area *area, float *left) {
     const lmpi_kernel_surfaces surfaces = surfaces_of(chunk);
     lmpi_kernel_disk disk;
     lmpi_area_pack_disk(area, &disk);
     lmpi_kernels_get()->shade.disk(prepared->bands, prepared->window, &surfaces, &disk,
+                                   chunk->count, &chunk->sums, left);
+}
+
+static void add_tube(const shade_prepared *prepared, const shade_chunk *chunk,
+                     const lmpi_area *area, float *left) {
+    const lmpi_kernel_surfaces surfaces = surfaces_of(chunk);
+    lmpi_kernel_tube tube;
+    lmpi_area_pack_tube(area, &tube);
+    lmpi_kernels_get()->shade.tube(prepared->bands, prepared->window, &surfaces, &tube,
                                    chunk->count, &chunk->sums, left);
 }
 
@@ -111,16 +120,15 @@ static void add_polygons(const shade_prepared *prepared, const shade_chunk *chun
     waiting->count = 0;
 }
 
-/* Adds the light of an area that has no corners. */
-static void add_round(const shade_prepared *prepared, const shade_chunk *chunk, lobe_weights *lobes,
-                      const lmpi_area *area) {
+/* Adds the light of an area that has no corners. By itself, because polygons need the stack. */
+static LMPI_NOINLINE void add_round(const shade_prepared *prepared, const shade_chunk *chunk,
+                                    lobe_weights *lobes, const lmpi_area *area) {
     _Alignas(64) float left[SHADE_SURFACES_MAX];
-    if (lmpi_area_is_tube(area->light)) {
-        add_area_everywhere(prepared, chunk, lobes, area, NULL);
-        return;
-    }
-    add_disk(prepared, chunk, area, left);
-    add_area_everywhere(prepared, chunk, lobes, area, left);
+    if (lmpi_area_is_tube(area->light))
+        add_tube(prepared, chunk, area, left);
+    else
+        add_disk(prepared, chunk, area, left);
+    add_left(prepared, chunk, lobes, area, left);
 }
 
 LMPI_NOINLINE void lmpi_shade_add_areas(const shade_prepared *prepared, const shade_chunk *chunk,

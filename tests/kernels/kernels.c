@@ -301,6 +301,12 @@ static void wrong_shade_disk(int bands, const float *window, const lmpi_kernel_s
     honest.shade.disk(bands, window, surfaces, light, count, accumulated, left);
     spoil_accumulated(accumulated);
 }
+static void wrong_shade_tube(int bands, const float *window, const lmpi_kernel_surfaces *surfaces,
+                             const lmpi_kernel_tube *light, size_t count,
+                             const lmpi_kernel_accumulated *accumulated, float *left) {
+    honest.shade.tube(bands, window, surfaces, light, count, accumulated, left);
+    spoil_accumulated(accumulated);
+}
 static void wrong_shade_preintegrated_lobe(const lmpi_kernel_preintegrated_lobe *lobe,
                                            const lmpi_kernel_lobe_positions *specular,
                                            const lmpi_kernel_surfaces *surfaces,
@@ -346,6 +352,7 @@ static const lmpi_kernels wrong = { .sh.eval = wrong_eval,
                                     .shade.zonal = wrong_shade_zonal,
                                     .shade.polygons = wrong_shade_polygons,
                                     .shade.disk = wrong_shade_disk,
+                                    .shade.tube = wrong_shade_tube,
                                     .shade.field = wrong_shade_field,
                                     .shade.preintegrated_lobe = wrong_shade_preintegrated_lobe,
                                     .shade.preintegrated_brdf = wrong_shade_preintegrated_brdf };

@@ -45,6 +45,8 @@ typedef enum kind {
     SHADE_POLYGONS_ALL,
     SHADE_DISK,
     SHADE_DISK_ALL,
+    SHADE_TUBE,
+    SHADE_TUBE_ALL,
     KINDS
 } kind;
 static const char *const kind_names[] = { "eval",
@@ -77,7 +79,9 @@ static const char *const kind_names[] = { "eval",
                                           "shade_polygons",
                                           "shade_polygons of all lobes",
                                           "shade_disk",
-                                          "shade_disk of all lobes" };
+                                          "shade_disk of all lobes",
+                                          "shade_tube",
+                                          "shade_tube of all lobes" };
 
 /* Returns how many Phong lobes a kernel of shading takes. */
 static int lobes_of(kind which) {
@@ -90,6 +94,7 @@ static int lobes_of(kind which) {
     case SHADE_FIELD:
     case SHADE_POLYGONS_ALL:
     case SHADE_DISK_ALL:
+    case SHADE_TUBE_ALL:
         return LMPI_KERNEL_LOBES_MAX;
     default:
         return 1;
@@ -138,6 +143,8 @@ static size_t values_of(kind which, int bands) {
     case SHADE_POLYGONS_ALL:
     case SHADE_DISK:
     case SHADE_DISK_ALL:
+    case SHADE_TUBE:
+    case SHADE_TUBE_ALL:
         return 3 + 3 * (size_t)lobes_of(which);
     default:
         return n;
@@ -229,13 +236,16 @@ static void run_image(const lmpi_kernels *k, int bands, const inputs *in, size_t
  * beside the planes. */
 enum { PLANE = (COUNT / LMPI_KERNEL_LANES_MAX + 1) * LMPI_KERNEL_LANES_MAX + 2 * GUARD };
 
-/* Shades under disks, and adds to red what each leaves. */
-static void call_disks(const lmpi_kernels *k, const shading *s,
+/* Shades under disks or tubes, and adds to red what each leaves. */
+static void call_round(const lmpi_kernels *k, bool tubes, const shading *s,
                        const lmpi_kernel_surfaces *surfaces, size_t count,
                        const lmpi_kernel_accumulated *sums) {
     _Alignas(64) float left[COUNT + 16];
-    for (int i = 0; i < SHADE_DISK_COUNT; i++) {
-        k->shade.disk(s->bands, s->window, surfaces, &s->disks[i], count, sums, left);
+    for (int i = 0; i < SHADE_ROUND_COUNT; i++) {
+        if (tubes)
+            k->shade.tube(s->bands, s->window, surfaces, &s->tubes[i], count, sums, left);
+        else
+            k->shade.disk(s->bands, s->window, surfaces, &s->disks[i], count, sums, left);
         for (size_t e = 0; e < count; e++)
             sums->diffuse[0][e] += left[e];
     }
@@ -267,7 +277,9 @@ static void call_shading(const lmpi_kernels *k, kind which, const shading *s, si
         k->shade.polygons(s->bands, s->window, &surfaces, s->polygons, SHADE_POLYGON_COUNT, count,
                           &sums);
     else if (which == SHADE_DISK || which == SHADE_DISK_ALL)
-        call_disks(k, s, &surfaces, count, &sums);
+        call_round(k, false, s, &surfaces, count, &sums);
+    else if (which == SHADE_TUBE || which == SHADE_TUBE_ALL)
+        call_round(k, true, s, &surfaces, count, &sums);
     else if (is_zonal(which))
         k->shade.zonal(s->bands, s->window, &surfaces, s->lights, SHADE_LIGHTS, count, &sums);
     else if (which != SHADE_PREINTEGRATED_BRDF)

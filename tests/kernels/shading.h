@@ -16,7 +16,7 @@
 enum {
     SHADE_LIGHTS = 11,
     SHADE_POLYGON_COUNT = 7,
-    SHADE_DISK_COUNT = 4,
+    SHADE_ROUND_COUNT = 4,
     CELLS = 3,
     VIEWS = 5,
     CAPS = 4,
@@ -31,7 +31,8 @@ typedef struct shading {
     _Alignas(64) float exponent[LMPI_KERNEL_LOBES_MAX][COUNT + 16];
     lmpi_packed_light lights[SHADE_LIGHTS];
     lmpi_kernel_polygon polygons[SHADE_POLYGON_COUNT];
-    lmpi_kernel_disk disks[SHADE_DISK_COUNT];
+    lmpi_kernel_disk disks[SHADE_ROUND_COUNT];
+    lmpi_kernel_tube tubes[SHADE_ROUND_COUNT];
     lmp_rgb ambient;
     float window[LMP_BANDS_MAX], diffuse[LMP_BANDS_MAX];
     lmpi_kernel_in sh; /* the light at each surface */
@@ -117,8 +118,8 @@ static void make_polygons(shading *s) {
 /* Makes disks in place of spheres: touched, tiny, of any size, and one that is far. */
 static void make_disks(shading *s) {
     const inputs *in = s->in;
-    static const int element[SHADE_DISK_COUNT] = { 0, 6, 20, 9 };
-    for (int i = 0; i < SHADE_DISK_COUNT; i++) {
+    static const int element[SHADE_ROUND_COUNT] = { 0, 6, 20, 9 };
+    for (int i = 0; i < SHADE_ROUND_COUNT; i++) {
         const int e = element[i];
         const lmp_light light = { .kind = LMP_LIGHT_DISK,
                                   .position = { in->center[0][e], in->center[1][e],
@@ -130,6 +131,26 @@ static void make_disks(shading *s) {
         lmpi_area area;
         lmpi_area_prepare(&light, &area);
         lmpi_area_pack_disk(&area, &s->disks[i]);
+    }
+}
+
+/* Makes tubes in place of the same spheres, of which each is half as thick as the one before. */
+static void make_tubes(shading *s) {
+    const inputs *in = s->in;
+    static const int element[SHADE_ROUND_COUNT] = { 0, 6, 20, 9 };
+    for (int i = 0; i < SHADE_ROUND_COUNT; i++) {
+        const int e = element[i];
+        const float r = in->radius[e];
+        const lmp_light light = {
+            .kind = LMP_LIGHT_TUBE,
+            .position = { in->center[0][e], in->center[1][e], in->center[2][e] },
+            .half = { { r * in->axis[0][e], r * in->axis[1][e], r * in->axis[2][e] } },
+            .radius = 0.25f * r / (float)(1 << i),
+            .radiance = { in->rgb[0][i], in->rgb[1][i], in->rgb[2][i] }
+        };
+        lmpi_area area;
+        lmpi_area_prepare(&light, &area);
+        lmpi_area_pack_tube(&area, &s->tubes[i]);
     }
 }
 
@@ -268,6 +289,7 @@ static shading *shading_create(const inputs *in, int bands, int lobes) {
     make_lights(s);
     make_polygons(s);
     make_disks(s);
+    make_tubes(s);
     make_preintegrated_lobe(s);
     make_preintegrated_brdf(s);
     make_lobes(s);

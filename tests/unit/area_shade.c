@@ -70,15 +70,10 @@ static void every_method_shades_lobes_alike(void **state) {
     lmp_preintegrated_lobe_destroy(lobe);
 }
 
-/* --- many surfaces under a flat light ----------------------------------------------------------
+/* --- many surfaces under an area ---------------------------------------------------------------
  */
 
 enum { MANY = 35 };
-
-static const lmp_light_kind flat_kinds[] = { LMP_LIGHT_RECTANGLE, LMP_LIGHT_POLYGON,
-                                             LMP_LIGHT_DISK };
-static const char *const flat_names[] = { "rectangle", "polygon", "disk" };
-enum { FLAT_KINDS = sizeof flat_kinds / sizeof *flat_kinds };
 
 /* Surfaces at all distances from a light, shaded together, of a matte and of a glossy material. */
 typedef struct many_surfaces {
@@ -104,8 +99,10 @@ static void shade_some(int bands, const lmp_material *material, const many_surfa
 static void shade_many(lmp_light_kind kind, int bands, const lmp_material *glossy,
                        many_surfaces *s) {
     s->area = area_random(kind);
+    /* outside a tube, which is one thing from within and another from without */
+    const double from = kind == LMP_LIGHT_TUBE ? s->area.size + (double)s->area.light.radius : 0;
     for (int i = 0; i < MANY; i++) {
-        const double distance = s->area.size * pow(10, check_random_between(-1, 3.5));
+        const double distance = from + s->area.size * pow(10, check_random_between(-1, 3.5));
         s->position[i] = i % 2
                              ? area_point(&s->area)
                              : area_sum(s->area.light.position, distance, check_random_direction());
@@ -162,12 +159,12 @@ static double glossy_error(const many_surfaces *s, int bands, float exponent, in
 /* Surfaces far and near, together, against quadrature over the light. */
 static void check_many(int bands, int count, double matte_bound, double glossy_bound) {
     static many_surfaces s;
-    for (int k = 0; k < FLAT_KINDS; k++) {
+    for (int k = 0; k < AREA_KINDS; k++) {
         double matte = 0, glossy = 0;
         for (int j = 0; j < count; j++) {
             const float exponent = (float)pow(10, check_random_between(0, 3));
             const lmp_material material = glossy_of(exponent);
-            shade_many(flat_kinds[k], bands, &material, &s);
+            shade_many(area_kinds[k], bands, &material, &s);
             for (int i = 0; i < MANY; i++) {
                 const double errors[2] = { matte_error(&s, i),
                                            glossy_error(&s, bands, exponent, i) };
@@ -175,7 +172,7 @@ static void check_many(int bands, int count, double matte_bound, double glossy_b
                 glossy = errors[1] <= glossy ? glossy : errors[1];
             }
         }
-        printf("%s, %d bands: matte at most %.2g, glossy %.2g\n", flat_names[k], bands, matte,
+        printf("%s, %d bands: matte at most %.2g, glossy %.2g\n", area_names[k], bands, matte,
                glossy);
         CHECK_WITHIN(matte, matte_bound);
         CHECK_WITHIN(glossy, glossy_bound);
@@ -218,7 +215,7 @@ static void neighbors_change_no_bit(void **state) {
     static many_surfaces s;
     const lmp_material glossy = glossy_of(30);
     for (int k = 0; k < 30; k++) {
-        shade_many(flat_kinds[k % FLAT_KINDS], BANDS, &glossy, &s);
+        shade_many(area_kinds[k % AREA_KINDS], BANDS, &glossy, &s);
         for (int i = 0; i < MANY; i++) {
             lmp_rgb alone;
             shade_some(BANDS, &paper, &s, i, 1, &alone);
@@ -234,9 +231,9 @@ static void neighbors_change_no_bit(void **state) {
 static void points_that_take_over_do_not_show(void **state) {
     (void)state;
     const lmp_vec3 w = { 0.48f, 0.36f, 0.8f }, normal = { -0.48f, -0.36f, -0.8f };
-    for (int k = 0; k < 4 * FLAT_KINDS; k++) {
-        const lmp_light_kind kind = flat_kinds[k % FLAT_KINDS];
-        const int bands = k < 2 * FLAT_KINDS ? BANDS : 48;
+    for (int k = 0; k < 4 * AREA_KINDS; k++) {
+        const lmp_light_kind kind = area_kinds[k % AREA_KINDS];
+        const int bands = k < 2 * AREA_KINDS ? BANDS : 48;
         const lmp_shade_settings settings = { .bands = bands };
         random_area area = area_random(kind);
         area.light.two_sided = true;
