@@ -112,6 +112,12 @@ bool render_surfaces_share(render_surfaces *s) {
     return s->same;
 }
 
+bool render_surfaces_note_taken(render_surfaces *s) {
+    if (!s->taken)
+        s->taken = calloc((size_t)s->width * (size_t)s->height, sizeof *s->taken);
+    return s->taken;
+}
+
 render_nearness render_nearness_of(const render_camera *c) {
     static const float steps = 4; /* in widths of a pixel */
     const float down2 = c->down[0] * c->down[0] + c->down[1] * c->down[1] + c->down[2] * c->down[2];
@@ -121,6 +127,7 @@ render_nearness render_nearness_of(const render_camera *c) {
 
 void render_surfaces_free(render_surfaces *s) {
     free(s->same);
+    free(s->taken);
     free(s->smooth);
     free(s->hits);
     free(s->bounced[0]);

@@ -43,6 +43,9 @@ struct render_surfaces {
      * layout. For these, only `seen` and positions are set here. NULL: none. */
     unsigned char *same;
     const render_surfaces *first;
+    /* Or which pixels are copies of those of the first sample, whose bounced light they have. NULL:
+     * none. */
+    unsigned char *taken;
 };
 
 /* Creates planes for a rectangle of that size at 0, 0, including those that the materials need.
@@ -70,13 +73,19 @@ void render_surfaces_lay_bounced(float *memory, render_surfaces *surfaces);
  * none. Returns false if memory ran out. */
 bool render_surfaces_fit_bounced(const render_frame *frame, render_surfaces *surfaces);
 
-/* Allocates `same`, so that pixels may be left to `first`, which is to be set. Returns false if
- * memory ran out. */
+/* Allocate `same`, so that pixels may be left to `first`, or `taken`, so that copies of its pixels
+ * are known; `first` is to be set. Return false if memory ran out. */
 bool render_surfaces_share(render_surfaces *surfaces);
+bool render_surfaces_note_taken(render_surfaces *surfaces);
 
 /* Whether a pixel, by its index, is the same as in the first sample. */
 static inline bool render_surfaces_same(const render_surfaces *s, size_t pixel) {
     return s->same && s->same[pixel];
+}
+
+/* Whether a pixel, by its index, is a copy of the first sample's. */
+static inline bool render_surfaces_taken(const render_surfaces *s, size_t pixel) {
+    return s->taken && s->taken[pixel];
 }
 
 /* Returns the planes that hold a pixel's surface, except `seen` and its position. */

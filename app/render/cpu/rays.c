@@ -114,6 +114,8 @@ static void see_lights(const cpu_view *view, int x, int y, const trace_rays *ray
         s->seen[at] = RENDER_SEES_LIGHT + hits[i].instance;
         if (s->same)
             s->same[at] = 0;
+        if (s->taken)
+            s->taken[at] = 0;
     }
 }
 
@@ -135,6 +137,8 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
             s->smooth[at] = 0;
         if (s->same)
             s->same[at] = 0;
+        if (s->taken)
+            s->taken[at] = 0;
         if (hits[i].instance == TRACE_NOTHING)
             s->seen[at] = RENDER_SEES_NOTHING;
         else {

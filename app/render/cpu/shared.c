@@ -102,6 +102,8 @@ bool cpu_shared_take(const cpu_first *f, uint32_t number, lmp_vec3 position, lmp
         s->same[at] = 1;
         return true;
     }
+    if (s->taken)
+        s->taken[at] = 1;
     copy(first->normal, s->normal, at);
     copy(first->base, s->base, at);
     copy(first->emission, s->emission, at);

@@ -19,6 +19,15 @@ void cpu_whole_free(cpu_whole *w) {
     w->kept = NULL;
 }
 
+/* Lets later samples share the first one's bounced light; surfaces that were found before are found
+ * again. */
+static bool note_taken(cpu_whole *w, const render_frame *frame) {
+    if (!frame->bounces.fill || w->surfaces.taken)
+        return true;
+    w->kept = NULL;
+    return render_surfaces_note_taken(&w->surfaces);
+}
+
 /* Allocates planes of the frame's size, replacing those of another size. */
 static bool size_planes(cpu_whole *w, const cpu_drawing *d, bool keep, base_error *error) {
     const int width = d->frame->width, height = d->frame->height;
@@ -37,7 +46,7 @@ static bool size_planes(cpu_whole *w, const cpu_drawing *d, bool keep, base_erro
           (!keep || render_surfaces_keep_hits(&w->first)))) &&
         render_surfaces_fit_bounced(d->frame, &w->surfaces) &&
         (!keep || render_surfaces_fit_bounced(d->frame, &w->first)) &&
-        (!keep || render_surfaces_keep_smooth(&w->first));
+        (!keep || note_taken(w, d->frame)) && (!keep || render_surfaces_keep_smooth(&w->first));
     if (!ok)
         cpu_whole_free(w);
     return ok || base_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
@@ -50,6 +59,7 @@ static void find_surfaces(cpu_whole *w, const cpu_drawing *d, const render_camer
     const int count = render_tile_count(s->width, s->height);
     const bool again = w->kept == s && memcmp(&w->view, camera, sizeof *camera) == 0;
     cpu_set_planes(d, camera, s);
+    s->first = first;
 #pragma omp parallel for schedule(dynamic)
     for (int i = 0; i < count; i++) {
         const render_rectangle pixels = render_tile_at(s->width, s->height, i);

@@ -32,6 +32,10 @@ typedef struct reading {
     lmp_rgb irradiance[RENDER_TILE_PIXELS];
 } reading;
 
+static lmp_rgb color_at(float *const planes[3], size_t pixel) {
+    return (lmp_rgb) { planes[0][pixel], planes[1][pixel], planes[2][pixel] };
+}
+
 static void set_color(float *const planes[3], size_t pixel, lmp_rgb color) {
     planes[0][pixel] = color.r;
     planes[1][pixel] = color.g;
@@ -50,6 +54,10 @@ static void list_pixels(const render_surfaces *s, const render_rectangle *pixels
         r->number[i] = UNLISTED;
         if (render_surfaces_same(s, pixel))
             continue;
+        if (render_surfaces_taken(s, pixel)) {
+            set_color(s->bounced, pixel, color_at(s->first->bounced, pixel));
+            continue;
+        }
         if (s->seen[pixel] < RENDER_SEES_LIGHT) {
             r->number[i] = (uint16_t)r->count;
             r->pixels[r->count++] = (uint32_t)pixel;
@@ -172,8 +180,7 @@ static bool take_first(reading *r, const render_surfaces *s, const render_rectan
         const size_t at = render_surfaces_at(s, pixels->x + column, pixels->y + row);
         if (first->seen[at] < RENDER_SEES_LIGHT &&
             is_beside(r, i, vector_at(first->position, at), vector_at(first->normal, at))) {
-            const lmp_vec3 e = vector_at(first->arrived, at);
-            r->irradiance[i] = (lmp_rgb) { e.x, e.y, e.z };
+            r->irradiance[i] = color_at(first->arrived, at);
             return true;
         }
     }
