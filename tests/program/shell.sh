@@ -72,7 +72,7 @@ completes() {
 completes 'lampion ren' 'render'
 completes 'lampion man ref' 'reference'
 completes 'lampion help ref' 'reference'
-completes 'lampion render --me' '--method'
+completes 'lampion render --met' '--method'
 completes 'lampion render --method pre' 'preintegrated'
 completes 'lampion render scene.gltf --device ' 'auto cpu gpu'
 completes 'lampion render --bands ' ''
