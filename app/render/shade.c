@@ -23,11 +23,6 @@ static lmp_vec3_array from(const lmp_vec3_array *planes, size_t first) {
                               planes->stride };
 }
 
-static lmp_vec3_array vectors(float *const planes[3], size_t first) {
-    return (lmp_vec3_array) { planes[0] + first, planes[1] + first, planes[2] + first,
-                              sizeof(float) };
-}
-
 enum { RUN = 64 };
 
 /* Returns the surfaces from `first` on. */
@@ -117,9 +112,9 @@ static void add_transmitted(const shade_job *job, const environment *around,
             normal[c][i] = -tile->normal[c][at[i]];
         }
     }
-    const lmp_vec3_array normals = vectors((float *[3]) { normal[0], normal[1], normal[2] }, 0);
+    const lmp_vec3_array normals = render_vectors((float *[3]) { normal[0], normal[1], normal[2] });
     const lmp_surfaces surfaces = {
-        .position = vectors((float *[3]) { position[0], position[1], position[2] }, 0),
+        .position = render_vectors((float *[3]) { position[0], position[1], position[2] }),
         .normal = normals,
         .view = normals,
         .material = material,
@@ -148,15 +143,7 @@ static void add_from_behind(const shade_job *job, const environment *around,
 /* Computes the light that the tile's surfaces reflect and transmit, into rgba. */
 static void reflect(const shade_job *job, const render_surfaces *planes, const render_tile *tile,
                     size_t count, float *rgba) {
-    lmp_surfaces surfaces = {
-        .position = vectors(tile->position, 0),
-        .normal = vectors(tile->normal, 0),
-        .view = vectors(tile->view, 0),
-        .material = tile->material,
-        .material_stride = sizeof *tile->material,
-    };
-    if (planes->layered)
-        surfaces.coat_normal = vectors(tile->coat_normal, 0);
+    const lmp_surfaces surfaces = render_tile_surfaces(tile, planes->layered);
     light_surfaces(job, planes->environment, &surfaces, tile->ambient, count, rgba);
     if (planes->translucent)
         add_from_behind(job, planes->environment, tile, count, rgba);

@@ -179,6 +179,19 @@ void render_tile_free(render_tile *tile) {
     free(tile->material);
 }
 
+lmp_surfaces render_tile_surfaces(const render_tile *tile, bool layered) {
+    lmp_surfaces surfaces = {
+        .position = render_vectors(tile->position),
+        .normal = render_vectors(tile->normal),
+        .view = render_vectors(tile->view),
+        .material = tile->material,
+        .material_stride = sizeof *tile->material,
+    };
+    if (layered)
+        surfaces.coat_normal = render_vectors(tile->coat_normal);
+    return surfaces;
+}
+
 bool render_tiles_visit(int width, int height, render_tile_user *use, void *user) {
     const int count = render_tile_count(width, height);
     bool ok = true;
@@ -234,21 +247,18 @@ lmp_rgb render_surfaces_beyond(const render_surfaces *s, int x, int y) {
     return background_of(s, view);
 }
 
-static lmp_rgb color_at(float *const planes[3], size_t pixel) {
-    return (lmp_rgb) { planes[0][pixel], planes[1][pixel], planes[2][pixel] };
-}
-
 /* Fills in what a surface's material has in common with others of that material, in place because
  * the struct is large; base color, metalness and roughness are left to fill_surface. */
 static void fill_material_constants(const render_surfaces *s, size_t pixel,
                                     lmp_material *material) {
     const uint32_t number = s->seen[pixel];
     const bool layered = s->layered && render_material_is_layered(s->materials, number);
-    const lmp_rgb tint = layered ? color_at(s->tint, pixel) : (lmp_rgb) { 1, 1, 1 };
+    const lmp_rgb tint = layered ? render_color_at(s->tint, pixel) : (lmp_rgb) { 1, 1, 1 };
     render_material_fill(s->materials, number, s->specular[pixel], tint, material);
     if (layered)
         render_material_cover(s->materials, (lmp_coat) { s->coat[pixel], s->coat_roughness[pixel] },
-                              color_at(s->sheen, pixel), s->sheen_roughness[pixel], material);
+                              render_color_at(s->sheen, pixel), s->sheen_roughness[pixel],
+                              material);
 }
 
 /* Whether two pixels that see surfaces share the part that fill_material_constants sets. */
@@ -258,15 +268,12 @@ static bool are_alike(const render_surfaces *s, size_t a, size_t b) {
 }
 
 static void fill_emission(const render_surfaces *s, size_t pixel, size_t at, render_tile *tile) {
-    const lmp_rgb emission = render_surfaces_emission(s, pixel);
-    tile->emission[0][at] = emission.r;
-    tile->emission[1][at] = emission.g;
-    tile->emission[2][at] = emission.b;
+    render_set_color(tile->emission, at, render_surfaces_emission(s, pixel));
 }
 
 static void fill_surface(const render_surfaces *s, size_t pixel, size_t at, render_tile *tile) {
     lmp_material *material = &tile->material[at];
-    material->base_color = color_at(s->base, pixel);
+    material->base_color = render_color_at(s->base, pixel);
     material->metallic = s->metallic[pixel];
     material->roughness = s->roughness[pixel];
     tile->ambient[at] = s->ambient[pixel];

@@ -142,6 +142,10 @@ void render_tile_free(render_tile *tile);
 typedef void render_tile_user(const render_rectangle *pixels, render_tile *tile, void *user);
 bool render_tiles_visit(int width, int height, render_tile_user *use, void *user);
 
+/* Returns the surfaces of a tile that sees nothing else, as the library takes them; `layered`:
+ * whether they have normals of coats. */
+lmp_surfaces render_tile_surfaces(const render_tile *tile, bool layered);
+
 /* Extracts the pixels of a rectangle, rows from the top; may be called from any thread, each with a
  * tile of its own. */
 void render_surfaces_tile(const render_surfaces *surfaces, int x, int y, int width, int height,
@@ -165,6 +169,21 @@ void render_surfaces_pick(const render_surfaces *surfaces, const uint32_t *pixel
 /* Extracts the positions of the surfaces in a row, one after another; returns how many there
  * are. */
 size_t render_surfaces_positions(const render_surfaces *surfaces, int y, render_tile *tile);
+
+/* Return and set a color of planes, by the pixel's index. */
+static inline lmp_rgb render_color_at(float *const planes[3], size_t pixel) {
+    return (lmp_rgb) { planes[0][pixel], planes[1][pixel], planes[2][pixel] };
+}
+static inline void render_set_color(float *const planes[3], size_t pixel, lmp_rgb color) {
+    planes[0][pixel] = color.r;
+    planes[1][pixel] = color.g;
+    planes[2][pixel] = color.b;
+}
+
+/* Returns planes of vectors as the library takes them. */
+static inline lmp_vec3_array render_vectors(float *const planes[3]) {
+    return (lmp_vec3_array) { planes[0], planes[1], planes[2], sizeof(float) };
+}
 
 /* Returns the radiance of a pixel's surface, by its index in the planes that hold it, that does not
  * come from lights directly: its emission and bounced light. */

@@ -172,8 +172,8 @@ static bool size_kept(const cpu_drawing *d, cpu_tiles *t) {
     const size_t pixels = (size_t)count * RENDER_TILE_PIXELS;
     const size_t planes =
         d->samples > 1 ? render_surfaces_values(RENDER_TILE, RENDER_TILE, d->materials) : 0;
-    const bool bounces = d->frame->bounces.fill;
-    if (t->count == count && t->planes == planes && t->bounces == bounces)
+    const bool bounces = planes > 0 && d->frame->bounces.fill;
+    if (t->count == count && t->planes == planes && !t->bounced == !bounces)
         return true;
     cpu_tiles_free(t);
     t->first_rgba = memory_large(4 * pixels * sizeof *t->first_rgba);
@@ -181,17 +181,16 @@ static bool size_kept(const cpu_drawing *d, cpu_tiles *t) {
     if (planes > 0) {
         t->first = memory_large((size_t)count * planes * sizeof *t->first);
         t->smooth = memory_large(pixels * sizeof *t->smooth);
-        t->bounced =
-            memory_large((bounces ? RENDER_BOUNCED_PLANES * pixels : 1) * sizeof *t->bounced);
         t->rgba = memory_large(4 * pixels * sizeof *t->rgba);
         t->sums = memory_large(4 * pixels * sizeof *t->sums);
     }
-    if (!t->first_rgba || !t->held ||
-        (planes > 0 && (!t->first || !t->smooth || !t->bounced || !t->rgba || !t->sums)))
+    if (bounces)
+        t->bounced = memory_large(RENDER_BOUNCED_PLANES * pixels * sizeof *t->bounced);
+    if (!t->first_rgba || !t->held || (bounces && !t->bounced) ||
+        (planes > 0 && (!t->first || !t->smooth || !t->rgba || !t->sums)))
         return false;
     t->count = count;
     t->planes = planes;
-    t->bounces = bounces;
     return true;
 }
 
@@ -229,7 +228,7 @@ static tile_place place_of(const tiles_job *job, int number, const tile_work *w)
                         job->drawing->materials, &at.first);
     cpu_set_planes(job->drawing, &job->cameras[0], &at.first);
     at.first.smooth = t->smooth + before;
-    if (t->bounces)
+    if (t->bounced)
         render_surfaces_lay_bounced(t->bounced + RENDER_BOUNCED_PLANES * before, &at.first);
     at.rgba = t->rgba + 4 * before;
     at.sums = t->sums + 4 * before;
@@ -244,10 +243,7 @@ static void hold(const render_surfaces *s, const render_rectangle *pixels, rende
             held->seen[i] = s->seen[i];
             if (held->weight)
                 held->weight[i] = s->weight[i];
-            const lmp_rgb emission = render_surfaces_emission(from, i);
-            held->emission[0][i] = emission.r;
-            held->emission[1][i] = emission.g;
-            held->emission[2][i] = emission.b;
+            render_set_color(held->emission, i, render_surfaces_emission(from, i));
         }
 }
 

@@ -11,10 +11,9 @@
 typedef struct cpu_tiles {
     int count;
     size_t planes;      /* values of a tile's first sample; 0: there are no later samples */
-    bool bounces;       /* whether there is bounced light */
     float *first;       /* planes of the first sample */
     uint32_t *smooth;   /* normals kept for the first sample */
-    float *bounced;     /* bounced light of the first sample */
+    float *bounced;     /* bounced light of the first sample, or NULL */
     float *first_rgba;  /* radiance of the first sample */
     float *held, *rgba; /* of the sample looked at: seen, emission and weights; radiance */
     float *sums;        /* weighted radiances so far, and weights */

@@ -19,15 +19,6 @@ void cpu_whole_free(cpu_whole *w) {
     w->kept = NULL;
 }
 
-/* Lets later samples share the first one's bounced light; surfaces that were found before are found
- * again. */
-static bool note_taken(cpu_whole *w, const render_frame *frame) {
-    if (!frame->bounces.fill || w->surfaces.taken)
-        return true;
-    w->kept = NULL;
-    return render_surfaces_note_taken(&w->surfaces);
-}
-
 /* Allocates planes of the frame's size, replacing those of another size. */
 static bool size_planes(cpu_whole *w, const cpu_drawing *d, bool keep, base_error *error) {
     const int width = d->frame->width, height = d->frame->height;
@@ -46,7 +37,8 @@ static bool size_planes(cpu_whole *w, const cpu_drawing *d, bool keep, base_erro
           (!keep || render_surfaces_keep_hits(&w->first)))) &&
         render_surfaces_fit_bounced(d->frame, &w->surfaces) &&
         (!keep || render_surfaces_fit_bounced(d->frame, &w->first)) &&
-        (!keep || note_taken(w, d->frame)) && (!keep || render_surfaces_keep_smooth(&w->first));
+        (!keep || !d->frame->bounces.fill || render_surfaces_note_taken(&w->surfaces)) &&
+        (!keep || render_surfaces_keep_smooth(&w->first));
     if (!ok)
         cpu_whole_free(w);
     return ok || base_fail(error, NULL, "out of memory for an image of %d x %d", width, height);

@@ -32,16 +32,6 @@ typedef struct reading {
     lmp_rgb irradiance[RENDER_TILE_PIXELS];
 } reading;
 
-static lmp_rgb color_at(float *const planes[3], size_t pixel) {
-    return (lmp_rgb) { planes[0][pixel], planes[1][pixel], planes[2][pixel] };
-}
-
-static void set_color(float *const planes[3], size_t pixel, lmp_rgb color) {
-    planes[0][pixel] = color.r;
-    planes[1][pixel] = color.g;
-    planes[2][pixel] = color.b;
-}
-
 /* Lists the pixels that show a surface of their own, and clears the planes of the others. */
 static void list_pixels(const render_surfaces *s, const render_rectangle *pixels, reading *r) {
     r->width = pixels->width;
@@ -55,14 +45,14 @@ static void list_pixels(const render_surfaces *s, const render_rectangle *pixels
         if (render_surfaces_same(s, pixel))
             continue;
         if (render_surfaces_taken(s, pixel)) {
-            set_color(s->bounced, pixel, color_at(s->first->bounced, pixel));
+            render_set_color(s->bounced, pixel, render_color_at(s->first->bounced, pixel));
             continue;
         }
         if (s->seen[pixel] < RENDER_SEES_LIGHT) {
             r->number[i] = (uint16_t)r->count;
             r->pixels[r->count++] = (uint32_t)pixel;
         } else
-            set_color(s->bounced, pixel, (lmp_rgb) { 0, 0, 0 });
+            render_set_color(s->bounced, pixel, (lmp_rgb) { 0, 0, 0 });
     }
 }
 
@@ -180,7 +170,7 @@ static bool take_first(reading *r, const render_surfaces *s, const render_rectan
         const size_t at = render_surfaces_at(s, pixels->x + column, pixels->y + row);
         if (first->seen[at] < RENDER_SEES_LIGHT &&
             is_beside(r, i, vector_at(first->position, at), vector_at(first->normal, at))) {
-            r->irradiance[i] = color_at(first->arrived, at);
+            r->irradiance[i] = render_color_at(first->arrived, at);
             return true;
         }
     }
@@ -208,17 +198,7 @@ static void reflect(const render_surfaces *s, const reading *r, lmp_rgb *reflect
                                           .bands = frame->bands,
                                           .window = frame->window,
                                           .lobe = frame->lobes };
-    float *const *const p = r->tile->position, *const *const n = r->tile->normal,
-                        *const *const v = r->tile->view, *const *const coat = r->tile->coat_normal;
-    lmp_surfaces surfaces = {
-        .position = { p[0], p[1], p[2], sizeof(float) },
-        .normal = { n[0], n[1], n[2], sizeof(float) },
-        .view = { v[0], v[1], v[2], sizeof(float) },
-        .material = r->tile->material,
-        .material_stride = sizeof *r->tile->material,
-    };
-    if (s->layered)
-        surfaces.coat_normal = (lmp_vec3_array) { coat[0], coat[1], coat[2], sizeof(float) };
+    const lmp_surfaces surfaces = render_tile_surfaces(r->tile, s->layered);
     lmp_shade_environment_n(&settings, &surfaces, r->count, &even, lmp_rgb_array_of(reflected));
 }
 
@@ -235,9 +215,9 @@ void transfer_read(const transfer_view *view, const lmp_transfer *transfer,
     for (size_t i = 0; i < r.count; i++) {
         const size_t pixel = r.pixels[i];
         const lmp_rgb e = r.irradiance[i];
-        set_color(s->arrived, pixel, e);
-        set_color(s->bounced, pixel,
-                  (lmp_rgb) { reflected[i].r * e.r / PI, reflected[i].g * e.g / PI,
-                              reflected[i].b * e.b / PI });
+        render_set_color(s->arrived, pixel, e);
+        render_set_color(s->bounced, pixel,
+                         (lmp_rgb) { reflected[i].r * e.r / PI, reflected[i].g * e.g / PI,
+                                     reflected[i].b * e.b / PI });
     }
 }
