@@ -44,7 +44,9 @@ static const struct {
 #ifdef LMPI_KERNELS_VECTOR
     { LMP_CPU_VECTOR, &lmpi_kernels_vector },
 #endif
+#ifndef LMPI_KERNELS_NO_SCALAR
     { LMP_CPU_SCALAR, &lmpi_kernels_scalar },
+#endif
 };
 enum { BUILDS = sizeof builds / sizeof *builds };
 

@@ -49,6 +49,10 @@ if(LAMPION_SIMD AND LAMPION_FOR_x86_64)
 else()
   list(REMOVE_ITEM lampion_sources ${kernels}/avx2.c ${kernels}/avx512.c ${kernels}/single_avx2.c ${kernels}/single_avx512.c)
 endif()
+if(NOT LAMPION_SCALAR AND lampion_kernel_builds)
+  list(REMOVE_ITEM lampion_sources ${kernels}/scalar.c ${kernels}/single_scalar.c)
+  list(APPEND lampion_kernel_builds LMPI_KERNELS_NO_SCALAR)
+endif()
 set_source_files_properties(${kernels}/dispatch.c PROPERTIES
   COMPILE_DEFINITIONS "${lampion_kernel_builds}")
 
