@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: MIT
+// call.js - passes JavaScript's arguments to C's functions as api.js describes them, checked, and what C returns back.
+//
+// Arguments live in C's memory while a call runs: numbers in arrays of that memory are passed as they are, all else is
+// copied to a stack of its own (Stack) and, where C writes, back.
+import { constants, functions, structs } from './api.js';
+import { extents, memberExtents, nullable, spread } from './extents.js';
+
+const kinds = {
+    i8: Int8Array, u8: Uint8Array, i16: Int16Array, u16: Uint16Array, i32: Int32Array, u32: Uint32Array, f32: Float32Array, f64: Float64Array,
+};
+const plainFloats = (name) => structs[name]?.members.every(([, type]) => type === 'f32');
+const HIDDEN = new Set(['host', 'scratch', 'parse_error']);
+const arrays = new Set(['vec3_array', 'float_array', 'rgb_array', 'sh_array']);
+
+export class LampionError extends Error {
+    constructor(code, text) {
+        super(text);
+        this.name = 'LampionError';
+        this.code = code;
+    }
+}
+
+// An object of C's, until its destroy function.
+export class Handle {
+    constructor(kind, pointer, destroy) {
+        Object.assign(this, { kind, pointer });
+        if (destroy && Symbol.dispose)
+            this[Symbol.dispose] = () => this.pointer && destroy(this);
+    }
+}
+
+// Memory of C's for the arguments of a call, which may be made within another.
+class Stack {
+    constructor(c, size = 1 << 16) {
+        Object.assign(this, { c, begin: c.malloc(size), top: 0, size, large: [] });
+    }
+    take(bytes) {
+        const at = this.begin + this.top;
+        if (this.top + bytes <= this.size) {
+            this.top += (bytes + 15) & ~15;
+            return at;
+        }
+        const memory = this.c.malloc(bytes);
+        if (!memory)
+            throw new LampionError(constants.ERROR_MEMORY, `${bytes} bytes do not fit into the memory that load() was given`);
+        this.large.push(memory);
+        return memory;
+    }
+    // Runs a function, and gives back all memory that it took.
+    within(run) {
+        const { top, large } = this, mine = [];
+        this.large = mine;
+        try {
+            return run();
+        } finally {
+            mine.forEach((memory) => this.c.free(memory));
+            Object.assign(this, { top, large });
+        }
+    }
+}
+
+export class Caller {
+    constructor(c, memory) {
+        Object.assign(this, { c, memory, buffer: memory.buffer, stack: new Stack(c), bytes: new Uint8Array(memory.buffer), view: new DataView(memory.buffer) });
+        this.text = new TextDecoder();
+        this.scratch = c.malloc(constants.SCRATCH_SIZE + constants.SCRATCH_ALIGNMENT);
+        this.scratchAt = Math.ceil(this.scratch / constants.SCRATCH_ALIGNMENT) * constants.SCRATCH_ALIGNMENT;
+        if (!this.stack.begin || !this.scratch)
+            throw new LampionError(constants.ERROR_MEMORY, 'load() was given too little memory');
+        this.api = {};
+        for (const [name, description] of Object.entries(functions))
+            this.api[name] = this.bind(name, description);
+    }
+
+    string(at) {
+        return at ? this.text.decode(this.bytes.subarray(at, this.bytes.indexOf(0, at))) : null;
+    }
+
+    size(type) {
+        return type.of ? type.count * this.size(type.of) : type.to ? 4 : kinds[type]?.BYTES_PER_ELEMENT ?? (type === 'bool' ? 1 : structs[type].size);
+    }
+
+    // --- reading ---------------------------------------------------------------------------------
+
+    read(type, at, context = {}) {
+        const { view } = this;
+        switch (type) {
+        case 'bool': return view.getUint8(at) !== 0;
+        case 'i8': return view.getInt8(at);
+        case 'u8': return view.getUint8(at);
+        case 'u16': return view.getUint16(at, true);
+        case 'i32': return view.getInt32(at, true);
+        case 'u32': return view.getUint32(at, true);
+        case 'f32': return view.getFloat32(at, true);
+        case 'f64': return view.getFloat64(at, true);
+        }
+        if (type.of)
+            return Array.from({ length: type.count }, (none, i) => this.read(type.of, at + i * this.size(type.of)));
+        if (type.to) {
+            const pointer = view.getUint32(at, true);
+            return type.to === 'char' ? this.string(pointer) : pointer && context.count !== undefined ? this.list(type.to, pointer, context.count) : null;
+        }
+        const value = {};
+        for (const [name, member, offset] of structs[type].members)
+            value[name] = member.to ? null : this.read(member, at + offset);
+        for (const [name, member, offset] of structs[type].members.filter(([, member]) => member.to)) // their lengths are known now
+            value[name] = this.read(member, at + offset, { count: memberExtents[type]?.[name]?.(value) });
+        return value;
+    }
+
+    // Numbers as a view of C's memory, structs as copies.
+    list(type, pointer, count) {
+        if (kinds[type])
+            return new kinds[type](this.buffer, pointer, count);
+        return Array.from({ length: count }, (none, i) => this.read(type, pointer + i * this.size(type)));
+    }
+
+    // --- writing ---------------------------------------------------------------------------------
+
+    write(type, at, value, name, context) {
+        const { view } = this;
+        if (type === 'bool')
+            return view.setUint8(at, value ? 1 : 0);
+        if (kinds[type]) {
+            if (typeof value !== 'number')
+                throw new TypeError(`${name} is not a number`);
+            switch (type) {
+            case 'i8': return view.setInt8(at, value);
+            case 'u8': return view.setUint8(at, value);
+            case 'u16': return view.setUint16(at, value, true);
+            case 'i32': return view.setInt32(at, value, true);
+            case 'u32': return view.setUint32(at, value, true);
+            case 'f32': return view.setFloat32(at, value, true);
+            default: return view.setFloat64(at, value, true);
+            }
+        }
+        if (type.of) {
+            if (value?.length === undefined || value.length > type.count)
+                throw new TypeError(`${name} is not an array of at most ${type.count}`);
+            return Array.prototype.forEach.call(value, (one, i) => this.write(type.of, at + i * this.size(type.of), one, `${name}[${i}]`, context));
+        }
+        if (type.to)
+            return view.setUint32(at, value === null ? 0 : this.pointer(type, value, name, context), true);
+        return this.writeStruct(type, at, value, name, context);
+    }
+
+    writeStruct(type, at, value, name, extent) {
+        if (arrays.has(type))
+            return this.writeArray(type, at, value, name, extent);
+        if (value === null || typeof value !== 'object')
+            throw new TypeError(`${name} is not an object`);
+        const { members } = structs[type];
+        if (value.length !== undefined && plainFloats(type)) { // [x, y, z]
+            if (value.length !== members.length)
+                throw new TypeError(`${name} has ${value.length} numbers, not ${members.length}`);
+            return members.forEach(([one, member, offset], i) => this.write(member, at + offset, value[i], `${name}[${i}]`));
+        }
+        for (const key in value)
+            if (!members.some(([one]) => one === key))
+                throw new TypeError(`${name}.${key} is not a member of lmp_${type}`);
+        const known = (member) => value[member] ?? 0;
+        for (const [one, member, offset] of members) {
+            if (value[one] === undefined)
+                continue;
+            const count = memberExtents[type]?.[one]?.(new Proxy(value, { get: (all, key) => known(key) }), extent);
+            this.write(member, at + offset, value[one], `${name}.${one}`, count);
+        }
+    }
+
+    // An array of vectors, numbers, colors or coefficients: itself, or with strides.
+    writeArray(type, at, value, name, extent) {
+        const { view } = this, width = type === 'float_array' ? 1 : 3;
+        const [values, count] = Array.isArray(extent) ? extent : [width, extent];
+        const list = value instanceof Float32Array || Array.isArray(value), stride = list ? undefined : value?.stride;
+        if (value === null)
+            return;
+        if (stride !== undefined && !(Number.isInteger(stride) && stride >= 0 && stride % 4 === 0))
+            throw new RangeError(`${name}.stride is not a multiple of 4`);
+        if (type === 'vec3_array' && !list) {
+            const needed = count && (stride ?? 4) / 4 * (count - 1) + 1;
+            ['x', 'y', 'z'].forEach((axis, i) => view.setUint32(at + 4 * i, this.numbers('f32', value?.[axis], `${name}.${axis}`, needed, true), true));
+            view.setUint32(at + 12, stride ?? 4, true);
+            return;
+        }
+        const given = list ? { at: value } : value;
+        const zero = type === 'float_array' && stride === 0; // the same for all
+        const needed = zero ? Math.min(count, 1) : spread(values, count, given);
+        const pointer = this.numbers('f32', given?.at, given === value ? `${name}.at` : name, needed, type === 'float_array' || type === 'vec3_array');
+        if (type === 'vec3_array') {
+            for (let i = 0; i < 3; i++)
+                view.setUint32(at + 4 * i, pointer + 4 * i, true);
+            view.setUint32(at + 12, 12, true);
+            return;
+        }
+        view.setUint32(at, pointer, true);
+        view.setUint32(at + 4, stride ?? (type === 'float_array' ? 4 : 0), true);
+        if (type === 'sh_array')
+            view.setInt32(at + 8, given.layout ?? 0, true);
+    }
+
+    // Numbers of JavaScript's or C's memory, as a pointer of C's.
+    numbers(type, value, name, needed = 0, constant = false) {
+        const Kind = kinds[type];
+        if (constant && Array.isArray(value))
+            value = Kind.from(value);
+        if (!(value instanceof Kind))
+            throw new TypeError(`${name} is not ${type[0] === 'f' ? 'a' : 'an'} ${Kind.name}`);
+        if (value.length < needed)
+            throw new RangeError(`${name} has ${value.length} values, and ${needed} are needed`);
+        if (value.buffer === this.buffer)
+            return value.byteOffset;
+        const at = this.stack.take(value.byteLength);
+        const copy = new Kind(this.buffer, at, value.length);
+        copy.set(value);
+        if (!constant)
+            this.after.push(() => value.set(copy));
+        return at;
+    }
+
+    pointer(type, value, name, extent) {
+        const { to, constant } = type;
+        if (value instanceof Structs) {
+            if (value.type !== to)
+                throw new TypeError(`${name} holds lmp_${value.type}, not lmp_${to}`);
+            if (typeof extent === 'number' && value.length < extent)
+                throw new RangeError(`${name} has ${value.length} elements, and ${extent} are needed`);
+            return value.pointer;
+        }
+        if (to === 'void') {
+            if (!ArrayBuffer.isView(value))
+                throw new TypeError(`${name} is not an array of bytes`);
+            return this.numbers('u8', new Uint8Array(value.buffer, value.byteOffset, value.byteLength), name, extent, constant);
+        }
+        if (to === 'char') {
+            const bytes = new TextEncoder().encode(`${value}\0`);
+            return this.numbers('u8', bytes, name, 0, true);
+        }
+        if (kinds[to])
+            return this.numbers(to, value, name, extent, constant);
+        if (to.to) { // pointers to objects
+            const at = this.stack.take(4 * value.length);
+            if (value.length < extent)
+                throw new RangeError(`${name} has ${value.length} elements, and ${extent} are needed`);
+            value.forEach((one, i) => this.view.setUint32(at + 4 * i, this.pointer(to, one, `${name}[${i}]`), true));
+            return at;
+        }
+        if (!structs[to]) {
+            if (!(value instanceof Handle) || value.kind !== to)
+                throw new TypeError(`${name} is not an lmp_${to}`);
+            if (!value.pointer)
+                throw new TypeError(`${name} was destroyed`);
+            return value.pointer;
+        }
+        if (value instanceof Float32Array && plainFloats(to))
+            return this.numbers('f32', value, name, structs[to].size / 4 * extent, constant);
+        const list = Array.isArray(value) && (typeof value[0] !== 'number' || !plainFloats(to)) ? value : [value];
+        if (list === value && list.length < extent)
+            throw new RangeError(`${name} has ${list.length} elements, and ${extent} are needed`);
+        const { size } = structs[to], at = this.stack.take(size * list.length);
+        this.bytes.fill(0, at, at + size * list.length);
+        list.forEach((one, i) => this.writeStruct(to, at + i * size, one, list === value ? `${name}[${i}]` : name, extent));
+        return at;
+    }
+
+    // --- calls -----------------------------------------------------------------------------------
+
+    // Returns lmp_NAME as a function of JavaScript's: without the host, the scratch and the error, which are filled in
+    // here, and without what is only written at the end, which it returns.
+    bind(name, { result, parameters }) {
+        const f = this.c[`lmp_${name}`];
+        const given = parameters.filter(([, type]) => !HIDDEN.has(type.to));
+        let count = given.length;
+        const outs = new Set();
+        for (; count && this.isOut(given[count - 1][1]); count--)
+            outs.add(given[count - 1][0]);
+        const destroys = name.endsWith('_destroy');
+        const extentOf = (parameter) => extents[`${name}.${parameter}`] ?? extents[parameter];
+        return (...values) => {
+            if (values.length !== count)
+                throw new TypeError(`${name} takes ${count} arguments, not ${values.length}`);
+            const args = Object.fromEntries(values.map((value, i) => [given[i][0], value]));
+            const before = this.after;
+            this.after = [];
+            try {
+                return this.stack.within(() => {
+                    const passed = [], written = [];
+                    let error = 0, returned = 0;
+                    if (structs[result])
+                        passed.push(returned = this.stack.take(structs[result].size));
+                    for (const [parameter, type] of parameters) {
+                        if (type.to === 'parse_error')
+                            error = this.stack.take(structs.parse_error.size);
+                        if (HIDDEN.has(type.to)) {
+                            passed.push(type.to === 'host' ? 0 : type.to === 'scratch' ? this.lendScratch() : error);
+                        } else if (outs.has(parameter)) {
+                            const at = this.stack.take(this.size(type.to));
+                            this.bytes.fill(0, at, at + this.size(type.to));
+                            written.push([type.to, at]);
+                            passed.push(at);
+                        } else {
+                            passed.push(this.pass(name, parameter, type, args, destroys, extentOf(parameter)));
+                        }
+                    }
+                    const value = f(...passed);
+                    this.after.forEach((copy) => copy());
+                    if (result === 'status' && value)
+                        throw new LampionError(value, `${name}: ${error && this.read('parse_error', error).text.length ? this.errorText(error) : this.string(this.c.lmp_result_text(value))}`);
+                    if (destroys)
+                        values[0].pointer = 0;
+                    const made = written.map(([type, at]) => type.to ? this.handle(type.to, this.view.getUint32(at, true), args) : this.read(type, at));
+                    if (made.length)
+                        return result === 'bool' && !value ? null : made.length === 1 ? made[0] : made;
+                    return this.give(name, result, value, returned, args);
+                });
+            } finally {
+                this.after = before;
+            }
+        };
+    }
+
+    isOut({ to, constant }) {
+        return to && !constant && (to.to || structs[to]);
+    }
+
+    errorText(at) {
+        const begin = at + structs.parse_error.members.find(([name]) => name === 'text')[2];
+        return this.string(begin);
+    }
+
+    lendScratch() {
+        const at = this.stack.take(8);
+        this.view.setUint32(at, this.scratchAt, true);
+        this.view.setUint32(at + 4, constants.SCRATCH_SIZE, true);
+        return at;
+    }
+
+    pass(name, parameter, type, args, destroys, extent) {
+        const value = args[parameter];
+        if (kinds[type]) {
+            if (typeof value !== 'number')
+                throw new TypeError(`${name}: ${parameter} is not a number`);
+            if (type[0] !== 'f' && !(Number.isInteger(value) && (type === 'i32' || value >= 0)))
+                throw new RangeError(`${name}: ${parameter} is ${value}, not ${type === 'i32' ? 'an integer' : 'a count'}`);
+            if (parameter === 'bands' && !(value >= 1 && value <= constants.BANDS_MAX))
+                throw new RangeError(`${name}: bands is ${value}, not 1 to ${constants.BANDS_MAX}`);
+            return value;
+        }
+        const words = `${name}: ${parameter}`, needed = extent?.(args, this.api);
+        if (type.to) {
+            if (value === null && (destroys || needed === 0 || nullable.has(parameter) || nullable.has(`${name}.${parameter}`)))
+                return 0;
+            if (value === null || value === undefined)
+                throw new TypeError(`${words} is missing`);
+            return this.pointer(type, value, words, needed);
+        }
+        const at = this.stack.take(structs[type].size);
+        this.bytes.fill(0, at, at + structs[type].size);
+        this.writeStruct(type, at, value, words, needed);
+        return at;
+    }
+
+    handle(kind, pointer, { bands } = {}) {
+        const handle = new Handle(kind, pointer, this.api[`${kind}_destroy`]);
+        return bands === undefined ? handle : Object.assign(handle, { bands });
+    }
+
+    give(name, result, value, returned, args) {
+        if (result === 'void' || result === 'status')
+            return undefined;
+        if (structs[result])
+            return this.read(result, returned);
+        if (!result.to)
+            return result === 'bool' ? value !== 0 : result === 'u32' ? value >>> 0 : value;
+        if (result.to === 'char')
+            return this.string(value);
+        if (!value)
+            return null;
+        const count = extents[`${name}.result`]?.(args, this.api);
+        if (count !== undefined)
+            return this.list(result.to, value, count);
+        return structs[result.to] ? this.read(result.to, value) : new Handle(result.to, value);
+    }
+}
+
+// Structs side by side in C's memory, for what is changed every frame: passed without copies.
+export class Structs {
+    constructor(caller, type, length) {
+        const { size } = structs[type];
+        const pointer = caller.c.malloc(size * length || 1);
+        if (!pointer)
+            throw new LampionError(constants.ERROR_MEMORY, `${length} structs lmp_${type} do not fit into the memory that load() was given`);
+        caller.bytes.fill(0, pointer, pointer + size * length);
+        Object.assign(this, { caller, type, length, pointer, size });
+    }
+    check(i) {
+        if (!this.pointer)
+            throw new TypeError('these structs were freed');
+        if (!(Number.isInteger(i) && i >= 0 && i < this.length))
+            throw new RangeError(`there is no element ${i} of ${this.length}`);
+        return this.pointer + i * this.size;
+    }
+    get(i) {
+        return this.caller.read(this.type, this.check(i));
+    }
+    // Sets the members given; the others stay as they are.
+    set(i, value) {
+        this.caller.writeStruct(this.type, this.check(i), value, `[${i}]`);
+    }
+    // Where a member of the first element is, in numbers, and the bytes from one element to the next.
+    array(member) {
+        const found = structs[this.type].members.find(([name]) => name === member);
+        if (!found)
+            throw new TypeError(`${member} is not a member of lmp_${this.type}`);
+        const [, type, offset] = found, { buffer } = this.caller, end = this.pointer + this.size * this.length;
+        const from = (skip) => new Float32Array(buffer, this.pointer + offset + skip, (end - this.pointer - offset - skip) / 4 | 0);
+        return type === 'f32' ? { at: from(0), stride: this.size } : { x: from(0), y: from(4), z: from(8), stride: this.size };
+    }
+    free() {
+        this.caller.c.free(this.pointer);
+        this.pointer = this.length = 0;
+    }
+}

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// generate.mjs INCLUDE OUT: reads clang's tree of the public headers, as JSON, from standard input and the headers'
+// constants from the folder INCLUDE, and writes OUT/api.js, by which call.js passes arguments, its types, OUT/api.d.ts, and the symbols to export.
+//
+// Layouts are those of wasm32: every member is aligned to its size, pointers and size_t have 4 bytes.
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
+
+const [include, out] = process.argv.slice(2);
+const { inner: nodes } = JSON.parse(readFileSync(0));
+const plain = (name) => name.replace(/^(lmp_|LMP_)/, '');
+const sizes = { bool: 1, i8: 1, u8: 1, i16: 2, u16: 2, i32: 4, u32: 4, f32: 4, pointer: 4, f64: 8 };
+const scalars = {
+    _Bool: 'bool', bool: 'bool', 'signed char': 'i8', char: 'u8', uint8_t: 'u8', int16_t: 'i16', uint16_t: 'u16', int: 'i32', uint32_t: 'u32', 'unsigned int': 'u32',
+    size_t: 'u32', float: 'f32', double: 'f64',
+};
+// What JavaScript passes by itself: the host's hooks, memory lent for a call, and where a reader reports an error.
+const hidden = new Set(['host', 'scratch', 'parse_error']);
+// Functions that need more than a table: callbacks (package.c), and bytes that C allocates.
+const special = new Set(['sh_project_function', 'sh_project_function_rgb', 'brdf_encode_merl', 'brdf_encode_rgl']);
+
+const records = {}, enums = {}, functions = [], constants = {}, comments = {};
+
+function textOf(node) {
+    const gather = ({ kind, text = '', name, inner = [] }) =>
+        (kind === 'InlineCommandComment' ? `@${name}` : text) + inner.map(gather).join(kind === 'FullComment' ? '\n' : '');
+    const comment = node.inner?.find(({ kind }) => kind === 'FullComment');
+    return comment ? gather(comment).split('\n').map((line) => line.replace(/^ *\*? ?/, '').trimEnd()).join('\n').trim() : '';
+}
+
+// A type as call.js reads it: a scalar, the name of a struct, or one of [type, count], { to, constant }.
+function typeOf(text) {
+    text = text.replace(/^(struct|enum) /, '').trim();
+    const array = text.match(/^(.*?) ?\[(\d+)\](.*)$/);
+    if (array)
+        return { of: typeOf(array[1] + array[3]), count: Number(array[2]) };
+    const pointer = text.match(/^(.*?) ?\*(const)?$/);
+    if (pointer) {
+        const to = pointer[1].replace(/^const /, '').replace(/^(.*\*) ?const$/, '$1');
+        return { to: to === 'void' ? 'void' : to === 'char' ? 'char' : typeOf(to), constant: /^const /.test(pointer[1]) || pointer[2] === 'const' };
+    }
+    text = text.replace(/^const /, '');
+    if (scalars[text])
+        return scalars[text];
+    if (text.startsWith('lmp_'))
+        return enums[plain(text)] ? 'i32' : plain(text);
+    throw new Error(`unknown type ${text}`);
+}
+
+const alignment = (type) => type.of ? alignment(type.of) : type.to ? 4 : sizes[type] ?? records[type].alignment;
+const sizeOf = (type) => type.of ? type.count * sizeOf(type.of) : type.to ? 4 : sizes[type] ?? records[type].size;
+
+// Lays out the members of a struct or union from `begin` on; members of anonymous unions join those of the struct.
+function layOut(record, begin, members) {
+    let at = begin, end = begin, most = 1;
+    const inner = record.inner ?? [];
+    for (const [i, field] of inner.entries()) {
+        if (field.kind === 'RecordDecl' && inner[i + 1]?.kind === 'FieldDecl' && !inner[i + 1].name) {
+            const probe = layOut(field, 0, []);
+            at = Math.ceil(at / probe.alignment) * probe.alignment;
+            const done = layOut(field, at, members);
+            most = Math.max(most, done.alignment);
+            at = done.end;
+        } else if (field.kind === 'FieldDecl' && field.name) {
+            const type = field.type.qualType.includes('(*)') ? { to: 'void' } : typeOf(field.type.qualType);
+            const align = alignment(type);
+            most = Math.max(most, align);
+            at = Math.ceil(at / align) * align;
+            members.push({ name: field.name, type, at, comment: textOf(field) });
+            at += sizeOf(type);
+        } else {
+            continue;
+        }
+        end = Math.max(end, at);
+        if (record.tagUsed === 'union')
+            at = begin;
+    }
+    return { end: Math.ceil((end - begin) / most) * most + begin, alignment: most };
+}
+
+for (const node of nodes) {
+    if (!node.name?.startsWith('lmp_') && node.kind !== 'EnumDecl')
+        continue;
+    if (node.kind === 'EnumDecl' && node.name?.startsWith('lmp_')) {
+        enums[plain(node.name)] = true;
+        let value = 0;
+        for (const one of node.inner.filter(({ kind }) => kind === 'EnumConstantDecl')) {
+            const given = one.inner?.find(({ kind }) => kind === 'ConstantExpr')?.value;
+            value = given === undefined ? value : Number(given);
+            constants[plain(one.name)] = value++;
+            comments[plain(one.name)] = textOf(one);
+        }
+    } else if (node.kind === 'RecordDecl' && node.completeDefinition) {
+        const members = [], { end, alignment: align } = layOut(node, 0, members);
+        records[plain(node.name)] = { size: end, alignment: align, members, comment: textOf(node) };
+    } else if (node.kind === 'FunctionDecl' && node.storageClass !== 'static') {
+        functions.push(node);
+    }
+}
+
+// Constants that are numbers, or products and sums of them.
+const macros = readdirSync(include).sort().flatMap((name) => name.endsWith('.h')
+    ? [...readFileSync(`${include}/${name}`, 'utf8').matchAll(/^#define LMP_([A-Z0-9_]+) +(\S.*?)(?: *\/\*.*)?$/gm)] : []);
+for (const [, name, text] of macros) {
+    const value = text.replace(/LMP_([A-Z0-9_]+)/g, (all, other) => constants[other]).replace(/UINT32_MAX/, '4294967295')
+        .replace(/([0-9.])f\b/g, '$1');
+    if (/^[-+*/0-9.e() ]+$/.test(value))
+        constants[name] = Function(`return ${value}`)();
+}
+
+const opaque = (type) => typeof type === 'string' && !sizes[type] && !records[type] && type !== 'void' && type !== 'char';
+const callable = functions.filter(({ name }) => !special.has(plain(name))).map((node) => {
+    const parameters = (node.inner ?? []).filter(({ kind }) => kind === 'ParmVarDecl').map(({ name, type }) =>
+        ({ name, type: typeOf(type.qualType) }));
+    const text = node.type.qualType.replace(/ ?\(.*/, '');
+    const status = text === 'lmp_result' && node.name !== 'lmp_result_text';
+    return { name: plain(node.name), parameters, result: status ? 'status' : text === 'void' ? 'void' : typeOf(text), comment: textOf(node) };
+});
+
+const shown = Object.entries(records).filter(([name]) => !hidden.has(name));
+const code = (value) => JSON.stringify(value).replace(/"([a-z_]+)":/g, '$1:').replaceAll('"', "'");
+writeFileSync(`${out}/api.js`, `// Made from Lampion's headers by generate.mjs.
+export const constants = {
+${Object.entries(constants).map(([name, value]) => `    ${name}: ${value},`).join('\n')}
+};
+export const structs = {
+${Object.entries(records).map(([name, { size, members }]) =>
+        `    ${name}: { size: ${size}, members: ${code(members.map(({ name: member, type, at }) => [member, type, at]))} },`).join('\n')}
+};
+export const functions = {
+${callable.map(({ name, parameters, result }) =>
+        `    ${name}: { result: ${code(result)}, parameters: ${code(parameters.map(({ name: one, type }) => [one, type]))} },`).join('\n')}
+};
+`);
+
+// --- types ---------------------------------------------------------------------------------------
+
+const title = (name) => name.replace(/(^|_)([a-z])/g, (all, before, letter) => letter.toUpperCase());
+const numbers = { f32: 'Float32Array', f64: 'Float64Array', i16: 'Int16Array', u16: 'Uint16Array', u32: 'Uint32Array', i32: 'Int32Array', u8: 'Uint8Array', i8: 'Int8Array' };
+const floats = (type) => records[type]?.members.every(({ type: one }) => one === 'f32');
+
+function scriptType(type, given) {
+    if (type === 'bool')
+        return 'boolean';
+    if (sizes[type])
+        return 'number';
+    if (type.of)
+        return numbers[type.of] ? (given ? 'ArrayLike<number>' : 'number[]') : `${scriptType(type.of, given)}[]`;
+    if (type.to) {
+        if (type.to === 'char')
+            return 'string';
+        if (type.to === 'void')
+            return given && type.constant ? 'ArrayBufferView' : 'Uint8Array';
+        if (type.to.to)
+            return `${title(type.to.to)}[]`;
+        if (opaque(type.to))
+            return title(type.to);
+        if (numbers[type.to])
+            return given && type.constant ? `${numbers[type.to]} | number[]` : numbers[type.to];
+        const one = title(type.to), list = given && type.constant ? `${one} | readonly ${one}[] | Structs<${one}>` : one;
+        return floats(type.to) ? `${list} | Float32Array` : list;
+    }
+    if (given && (type === 'vec3' || type === 'rgb' || type === 'quat'))
+        return `${title(type)} | ArrayLike<number>`;
+    return { vec3_array: 'Vec3Array', float_array: 'FloatArray', sh_array: 'ShArray', rgb_array: 'RgbArray' }[type] ?? title(type);
+}
+
+const comment = (text, indent = '') =>
+    text ? `${indent}/**\n${text.replaceAll('*/', '*').split('\n').map((line) => `${indent} * ${line}`.trimEnd()).join('\n')}\n${indent} */\n` : '';
+const made = ({ to, constant }) => to && !constant && (to.to || records[to]);
+
+// What is only written and comes last is returned: objects, and structs.
+function signature({ parameters, result }) {
+    const given = parameters.filter(({ type }) => !hidden.has(type.to));
+    const outs = [];
+    while (given.length && made(given.at(-1).type))
+        outs.unshift(given.pop());
+    const kind = outs.map(({ type }) => title(type.to.to ?? type.to));
+    const returned = outs.length === 1 ? kind[0] : outs.length ? `[${kind.join(', ')}]`
+        : result === 'void' || result === 'status' ? 'void' : result.to === 'char' ? 'string | null' : scriptType(result, false);
+    const lists = given.map(({ name, type }) => {
+        const plainType = scriptType(type, true), optional = type.to && type.constant && (type.to === 'f32' || records[type.to]);
+        return `${name === 'function' ? 'f' : name}: ${plainType}${optional ? ' | null' : ''}`;
+    });
+    return `(${lists.join(', ')}): ${result === 'bool' && outs.length ? `${returned} | null` : returned}`;
+}
+
+const simple = new Set(['vec3_array', 'float_array', 'sh_array', 'rgb_array', ...hidden]);
+const handles = [...new Set(callable.flatMap(({ parameters }) => parameters.map(({ type }) => type.to?.to ?? type.to).filter(opaque)))];
+const written = handles.map((name) => `export interface ${title(name)} { readonly kind: '${name}' }`);
+writeFileSync(`${out}/api.d.ts`, `// Made from Lampion's headers by generate.mjs.
+import type { Structs } from './index.js';
+
+export type Numbers = Float32Array;
+/** Vectors side by side, or three arrays with the bytes from one element to the next; a stride of 0 repeats one. */
+export type Vec3Array = Float32Array | { x: Float32Array, y: Float32Array, z: Float32Array, stride: number };
+export type FloatArray = Float32Array | { at: Float32Array, stride: number };
+export type RgbArray = Float32Array | { at: Float32Array, stride?: number };
+/** Coefficients side by side, or with a stride in bytes and a layout: SH_INTERLEAVED or SH_PLANAR. */
+export type ShArray = Float32Array | { at: Float32Array, stride?: number, layout?: number };
+
+${written.join('\n')}
+
+${shown.filter(([name]) => !simple.has(name)).map(([name, { members, comment: text }]) => `${comment(text)}export interface ${title(name)} {
+${members.map(({ name: one, type, comment: why }) => `${comment(why, '    ')}    ${one}?: ${scriptType(type, true)}${type.to ? ' | null' : ''};`).join('\n')}
+}`).join('\n\n')}
+
+export interface Constants {
+${Object.keys(constants).map((name) => `${comment(comments[name], '    ')}    readonly ${name}: number;`).join('\n')}
+}
+
+export interface Functions {
+${callable.map((one) => `${comment(one.comment, '    ')}    ${one.name}${signature(one)};`).join('\n')}
+}
+`);
+
+const symbols = [...functions.map(({ name }) => `_${name}`), '_malloc', '_free'];
+writeFileSync(`${out}/exports.txt`, `${symbols.join('\n')}\n`);

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+// Lampion in three.js: sphere lights for MeshStandardMaterial (SphereLights), grids of probes that are lit anew every
+// frame (LightProbeVolume), and lights and rotations for Gaussian splats (SplatLights). WebGL 2.
+import {
+    Color, Data3DTexture, DataTexture, FloatType, HalfFloatType, LightProbe, LinearFilter, MeshStandardMaterial, Object3D, RGBAFormat, Vector3,
+} from 'three';
+import { ProbeGrid, SLABS } from './probes.js';
+import { ggx, lampion, probe } from './shaders.js';
+
+const ROW = 512; // lights in a row of the texture, 2 texels each
+const world = new Vector3();
+
+// A glowing sphere. Its intensity is that of a PointLight, in candela, whatever its radius: it keeps its light as it
+// grows. `radiance` is that of its surface.
+export class SphereLight extends Object3D {
+    constructor(color = 0xffffff, intensity = 1, radius = 0.1) {
+        super();
+        this.isSphereLight = true;
+        this.type = 'SphereLight';
+        this.color = new Color(color);
+        Object.assign(this, { intensity, radius });
+    }
+    get radiance() {
+        return this.intensity / (Math.PI * this.radius ** 2);
+    }
+    set radiance(radiance) {
+        this.intensity = radiance * Math.PI * this.radius ** 2;
+    }
+    get power() {
+        return 4 * Math.PI * this.intensity;
+    }
+    set power(power) {
+        this.intensity = power / (4 * Math.PI);
+    }
+    copy(source, recursive) {
+        super.copy(source, recursive);
+        this.color.copy(source.color);
+        return Object.assign(this, { intensity: source.intensity, radius: source.radius });
+    }
+}
+
+// Returns the visible sphere lights of a scene as arrays in Lampion's memory, which `spheres` keeps.
+function gather(scene, spheres) {
+    let count = 0;
+    scene.traverseVisible((light) => {
+        if (!light.isSphereLight)
+            return;
+        if (!(light.radius > 0))
+            throw new RangeError(`the radius of SphereLight ${light.name} is ${light.radius}`);
+        spheres.reserve(count + 1);
+        world.setFromMatrixPosition(light.matrixWorld).toArray(spheres.center, 3 * count);
+        spheres.radius[count] = light.radius;
+        const { radiance } = light;
+        spheres.radiance.set([radiance * light.color.r, radiance * light.color.g, radiance * light.color.b], 3 * count);
+        count++;
+    });
+    spheres.count = count;
+    return spheres;
+}
+
+class Spheres {
+    constructor(lmp) {
+        Object.assign(this, { lmp, count: 0, capacity: 0 });
+        this.reserve(64);
+    }
+    reserve(count) {
+        if (count <= this.capacity)
+            return;
+        const { lmp, center, radius, radiance } = this;
+        this.capacity = Math.max(count, 2 * this.capacity);
+        for (const [name, width, old] of [['center', 3, center], ['radius', 1, radius], ['radiance', 3, radiance]]) {
+            this[name] = lmp.floats(width * this.capacity);
+            if (old) {
+                this[name].set(old);
+                lmp.free(old);
+            }
+        }
+    }
+    get arrays() {
+        return { center: this.center, radius: this.radius, radiance: this.radiance };
+    }
+    free() {
+        for (const array of [this.center, this.radius, this.radiance])
+            this.lmp.free(array);
+    }
+}
+
+// Adds code to the shader of a standard material, after what others have added.
+function extend(material, key, uniforms, change) {
+    const before = material.onBeforeCompile, keyBefore = material.customProgramCacheKey;
+    material.onBeforeCompile = function compile(shader, renderer) {
+        before.call(this, shader, renderer);
+        Object.assign(shader.uniforms, uniforms);
+        shader.fragmentShader = change(shader.fragmentShader);
+    };
+    material.customProgramCacheKey = function cacheKey() {
+        return `${keyBefore.call(this)},${key}`;
+    };
+    material.needsUpdate = true;
+    return () => {
+        Object.assign(material, { onBeforeCompile: before, customProgramCacheKey: keyBefore, needsUpdate: true });
+    };
+}
+
+// Materials that were changed, and how to undo it.
+class Patches {
+    constructor(patch) {
+        Object.assign(this, { patch, undo: new Map() });
+    }
+    add(material) {
+        if (material instanceof MeshStandardMaterial && !this.undo.has(material))
+            this.undo.set(material, this.patch(material));
+        return material;
+    }
+    addScene(scene) {
+        scene.traverse(({ material }) => {
+            for (const one of material ? [material].flat() : [])
+                if (one.userData.lampion !== false)
+                    this.add(one);
+        });
+    }
+    dispose() {
+        this.undo.forEach((undo) => undo());
+        this.undo.clear();
+    }
+}
+
+const WORLD = `
+    vec3 lampionToWorld(vec3 v) { return (vec4(v, 0.0) * viewMatrix).xyz; }
+    vec3 lampionWorldPosition(vec3 v) { return (vec4(v - viewMatrix[3].xyz, 0.0) * viewMatrix).xyz; }`;
+
+// Lights the standard materials of a scene by its SphereLights. Call update() before every frame.
+//
+// bands: of highlights, 1 to 32: more for smoother surfaces. Materials whose userData.lampion is false are left alone.
+export class SphereLights {
+    constructor(lmp, scene, { bands = 10 } = {}) {
+        if (!(Number.isInteger(bands) && bands >= 1 && bands <= 32))
+            throw new RangeError(`SphereLights: bands is ${bands}, not 1 to 32`);
+        Object.assign(this, { lmp, scene, spheres: new Spheres(lmp) });
+        const table = new Float32Array(4 * lmp.GGX_TEXELS);
+        lmp.lobe_copy_ggx_texels(table);
+        const texture = new DataTexture(table, 32, lmp.GGX_TEXELS / 32, RGBAFormat, FloatType);
+        texture.needsUpdate = true;
+        this.uniforms = { lampionLights: { value: null }, lampionCount: { value: 0 }, lampionTexels: { value: texture } };
+        const head = `
+            uniform highp sampler2D lampionLights, lampionTexels;
+            uniform int lampionCount;
+            ${WORLD.replaceAll('lampion', 'lampionLight')}
+            vec4 lampionTexel(int i) { return texelFetch(lampionLights, ivec2(i % ${2 * ROW}, i / ${2 * ROW}), 0); }
+            #define LMP_BANDS ${bands}
+            #define LMP_WINDOW LMP_WINDOW_HANNING
+            #define LMP_LIGHT_COUNT lampionCount
+            #define LMP_LIGHT_SPHERE(i) lampionTexel(2 * (i))
+            #define LMP_LIGHT_RADIANCE(i) lampionTexel(2 * (i) + 1).rgb
+            #define LMP_GGX_TEXEL(i) texelFetch(lampionTexels, ivec2((i) % 32, (i) / 32), 0)
+            ${ggx}${lampion}
+            void main() {`;
+        const body = `#include <lights_fragment_end>
+            reflectedLight.directSpecular += lmp_shade_zonal(lmp_surface(lampionLightWorldPosition(geometryPosition),
+                    lampionLightToWorld(geometryNormal), lampionLightToWorld(geometryViewDir)),
+                lmp_metallic_roughness(diffuseColor.rgb, metalnessFactor, roughnessFactor));`;
+        this.patches = new Patches((material) => extend(material, `lampion ${bands}`, this.uniforms, (shader) =>
+            shader.replace('void main() {', () => head).replace('#include <lights_fragment_end>', () => body)));
+        this.update();
+    }
+    // Reads the lights of the scene, and lights materials that are new in it.
+    update() {
+        this.scene.updateMatrixWorld();
+        const { count, center, radius, radiance } = gather(this.scene, this.spheres);
+        this.patches.addScene(this.scene);
+        const rows = Math.max(Math.ceil(count / ROW), 1);
+        if (this.uniforms.lampionLights.value?.image.height !== rows) {
+            this.uniforms.lampionLights.value?.dispose();
+            this.uniforms.lampionLights.value = new DataTexture(new Float32Array(8 * ROW * rows), 2 * ROW, rows, RGBAFormat, FloatType);
+        }
+        const texture = this.uniforms.lampionLights.value, { data } = texture.image;
+        for (let i = 0; i < count; i++) {
+            data.set(center.subarray(3 * i, 3 * i + 3), 8 * i);
+            data[8 * i + 3] = radius[i];
+            data.set(radiance.subarray(3 * i, 3 * i + 3), 8 * i + 4);
+        }
+        texture.needsUpdate = true;
+        this.uniforms.lampionCount.value = count;
+    }
+    dispose() {
+        this.patches.dispose();
+        this.uniforms.lampionLights.value.dispose();
+        this.uniforms.lampionTexels.value.dispose();
+        this.spheres.free();
+    }
+}
+
+// A grid of probes in a box (ProbeGrid), lit anew by update(): diffuse light of many lights, at one cost per pixel.
+//
+// box: a Box3; size: probes along x, y, z. Only the standard materials given to add(), or found in the scene that
+// addScene() is given, receive it. worker: a Worker of lampion/worker, which then lights the probes; they follow as soon
+// as it is done, and update() returns at once.
+export class LightProbeVolume {
+    constructor(lmp, box, size, { worker } = {}) {
+        const options = { min: box.min.toArray(), max: box.max.toArray(), size };
+        Object.assign(this, { spheres: new Spheres(lmp), grid: new ProbeGrid(lmp, options), worker });
+        const { halves, extent } = this.grid;
+        if (worker) {
+            worker.postMessage({ grid: options });
+            worker.onmessage = ({ data }) => this.receive(data);
+        }
+        const texture = new Data3DTexture(halves, size[0], size[1], SLABS * size[2]);
+        Object.assign(texture, { format: RGBAFormat, type: HalfFloatType, minFilter: LinearFilter, magFilter: LinearFilter });
+        this.uniforms = {
+            lampionVolume: { value: texture }, lampionVolumeMin: { value: box.min.clone() }, lampionVolumeExtent: { value: new Vector3(...extent) },
+        };
+        const [x, y, z] = size.map((n) => `${n}.0`);
+        const head = `
+            uniform highp sampler3D lampionVolume;
+            uniform vec3 lampionVolumeMin, lampionVolumeExtent;
+            ${probe}
+            ${WORLD.replaceAll('lampion', 'lampionVolume')}
+            vec4 lampionVolumeSlab(vec3 at, float slab) {
+                return texture(lampionVolume, vec3(at.xy, (at.z + ${z} * slab) / (${z} * ${SLABS}.0)));
+            }
+            vec3 lampionVolumeIrradiance(vec3 position, vec3 n) {
+                vec3 size = vec3(${x}, ${y}, ${z});
+                vec3 at = clamp((position - lampionVolumeMin) / lampionVolumeExtent, 0.0, 1.0) * (size - 1.0) + 0.5;
+                at.xy /= size.xy;
+                vec4 linear[3], quadratic[3];
+                for (int c = 0; c < 3; c++) {
+                    linear[c] = lampionVolumeSlab(at, float(c));
+                    quadratic[c] = lampionVolumeSlab(at, float(3 + c));
+                }
+                return max(lmp_probe_irradiance(linear, quadratic, lampionVolumeSlab(at, 6.0), n), 0.0);
+            }
+            void main() {`;
+        const body = `
+            #if defined( RE_IndirectDiffuse )
+                irradiance += lampionVolumeIrradiance(lampionVolumeWorldPosition(geometryPosition), lampionVolumeToWorld(geometryNormal));
+            #endif
+            #include <lights_fragment_maps>`;
+        this.patches = new Patches((material) => extend(material, `lampion volume ${size}`, this.uniforms, (shader) =>
+            shader.replace('void main() {', () => head).replace('#include <lights_fragment_maps>', () => body)));
+    }
+    add(material) {
+        return this.patches.add(material);
+    }
+    addScene(scene) {
+        this.patches.addScene(scene);
+    }
+    // Lights the probes by the SphereLights of a scene.
+    update(scene) {
+        scene.updateMatrixWorld();
+        const { count, center, radius, radiance } = gather(scene, this.spheres);
+        if (!this.worker) {
+            this.grid.light(this.spheres.arrays, count);
+            this.uniforms.lampionVolume.value.needsUpdate = true;
+        } else if (!this.busy) {
+            this.busy = true;
+            const spheres = { center: center.slice(0, 3 * count), radius: radius.slice(0, count), radiance: radiance.slice(0, 3 * count) };
+            this.worker.postMessage({ spheres, count }, Object.values(spheres).map(({ buffer }) => buffer));
+        }
+    }
+    receive({ halves, error }) {
+        this.busy = false;
+        if (error)
+            throw new Error(`LightProbeVolume: ${error}`);
+        this.grid.halves.set(halves);
+        this.uniforms.lampionVolume.value.needsUpdate = true;
+    }
+    dispose() {
+        this.patches.dispose();
+        this.uniforms.lampionVolume.value.dispose();
+        this.grid.free();
+        this.spheres.free();
+    }
+}
+
+// Lights a LightProbe by the SphereLights of a scene, as they are seen from its position. three's basis lacks the
+// Condon-Shortley sign: odd m, the odd indices of three bands, change theirs. Both are of radiance.
+export function lightProbe(lmp, scene, light = new LightProbe()) {
+    const spheres = new Spheres(lmp), sh = new Float32Array(27);
+    scene.updateMatrixWorld();
+    light.updateMatrixWorld();
+    const { arrays, count } = gather(scene, spheres);
+    lmp.sphere_sum_n(3, arrays, count, null, new Float32Array(world.setFromMatrixPosition(light.matrixWorld).toArray()), 1, sh);
+    spheres.free();
+    for (let i = 0; i < 9; i++)
+        light.sh.coefficients[i].set(sh[i], sh[9 + i], sh[18 + i]).multiplyScalar(i % 2 ? -1 : 1);
+    return light;
+}
+
+const BAND_0 = 0.28209479177387814; // Y_00
+
+// Lights for 3D Gaussian splats (Kerbl et al. 2023), and their coefficients when a scene turns.
+export class SplatLights {
+    constructor(lmp) {
+        Object.assign(this, { lmp, spheres: new Spheres(lmp) });
+    }
+    // Writes the color of band 0, f_dc, of splats lit by the SphereLights of a scene; 3DGS shows 0.5 + Y_00 f_dc.
+    //
+    // positions, albedo and f_dc: three numbers per splat. normals: of splats that lie on surfaces, which then reflect
+    // diffusely; without them, a splat scatters the light from everywhere alike.
+    light(scene, { positions, normals, albedo }, f_dc) {
+        const { lmp } = this, n = positions.length / 3, rgb = lmp.floats(3 * n);
+        scene.updateMatrixWorld();
+        const { arrays, count } = gather(scene, this.spheres);
+        if (normals) {
+            const lights = Array.from({ length: count }, (none, i) => ({
+                position: arrays.center.subarray(3 * i, 3 * i + 3), radius: arrays.radius[i], radiance: arrays.radiance.subarray(3 * i, 3 * i + 3),
+            }));
+            const surfaces = { position: positions, normal: normals, view: normals, material: { diffuse: [1, 1, 1] } };
+            lmp.shade_n(null, surfaces, n, lights, count, rgb);
+        } else { // the mean of the radiance over all directions
+            lmp.sphere_sum_n(1, arrays, count, null, positions, n, rgb);
+            for (let i = 0; i < 3 * n; i++)
+                rgb[i] *= BAND_0;
+        }
+        for (let i = 0; i < 3 * n; i++)
+            f_dc[i] = (rgb[i] * albedo[i] - 0.5) / BAND_0;
+        lmp.free(rgb);
+    }
+    // Turns the coefficients of splats with a scene: f_rest holds, per splat, the coefficients of bands 1 and up of all
+    // of red, then green, then blue. Viewers that leave this out leave the highlights behind.
+    rotate(quaternion, bands, f_rest) {
+        const { lmp } = this, rest = bands * bands - 1, n = f_rest.length / (3 * rest);
+        if (!Number.isInteger(n))
+            throw new RangeError(`SplatLights: f_rest has ${f_rest.length} values, no multiple of ${3 * rest}`);
+        const matrices = new Float32Array((4 * bands * bands - 1) * bands / 3);
+        lmp.sh_make_rotation(bands, quaternion.toArray(), matrices);
+        const from = lmp.floats(3 * n * (rest + 1)), to = lmp.floats(3 * n * (rest + 1));
+        for (let i = 0; i < 3 * n; i++)
+            from.set(f_rest.subarray(rest * i, rest * (i + 1)), (rest + 1) * i + 1);
+        lmp.sh_rotate_n(bands, matrices, from, 3 * n, to);
+        for (let i = 0; i < 3 * n; i++)
+            f_rest.set(to.subarray((rest + 1) * i + 1, (rest + 1) * (i + 1)), rest * i);
+        lmp.free(from);
+        lmp.free(to);
+    }
+    dispose() {
+        this.spheres.free();
+    }
+}
