@@ -1,47 +1,55 @@
 // SPDX-License-Identifier: MIT
-// Balls from smooth to rough under 30 sphere lights of Lampion, beside a sun and a point light of
-// three.js; ?probe is one matte ball lit by a LightProbe instead.
+// Balls from smooth to rough under 30 sphere lights, beside a sun and a point light of three.js; ?probe is one matte
+// ball lit by a LightProbe instead, ?volume matte balls lit by a grid of probes.
 //
-// For tests, ?export sends the scene as glTF and the image as OpenEXR to the server; with ?alone
-// three.js' own lights are left out.
+// For tests, ?export sends the scene as glTF and the image as OpenEXR to the server; with ?alone three.js' own lights are
+// left out.
 import * as THREE from 'three';
-import { loadLampion, probeOf } from './lampion.js';
+import { load } from 'lampion';
+import { LightProbeVolume, SphereLight, SphereLights, lightProbe } from 'lampion/three';
 
 const asked = new URLSearchParams(location.search);
 const size = asked.has('export') ? [320, 200] : [innerWidth, innerHeight];
+const matte = asked.has('volume');
 
 const { lights } = await (await fetch('lights.json')).json();
-const lampion = await loadLampion('shaders', 16);
-lampion.setLights(lights);
+const lmp = await load();
 
 const scene = new THREE.Scene();
 const camera = new THREE.PerspectiveCamera(40, size[0] / size[1], 0.1, 50);
 camera.position.set(0, 2.6, 6);
 camera.lookAt(0, 0.4, 0);
 scene.add(camera);
+const lamps = lights.map(({ position, radius, radiance }) => {
+    const lamp = new SphereLight(new THREE.Color(...radiance), 1, radius);
+    lamp.radiance = 1;
+    lamp.position.set(...position);
+    return lamp;
+});
+scene.add(...lamps);
 
-function add(geometry, options, lit = lampion) {
-    const material = new THREE.MeshStandardMaterial(options);
-    const mesh = new THREE.Mesh(geometry, lit ? lit.patch(material) : material);
+function add(geometry, options) {
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial(options));
     scene.add(mesh);
     return mesh;
 }
 
 function addBalls() {
-    add(new THREE.PlaneGeometry(9, 9), { color: 0x998877, roughness: 0.7 }).rotation.x = -Math.PI / 2;
+    const white = { name: 'matte', color: 0xffffff, roughness: 1 };
+    add(new THREE.PlaneGeometry(9, 9), matte ? white : { color: 0x998877, roughness: 0.7 }).rotation.x = -Math.PI / 2;
     const ball = new THREE.SphereGeometry(0.45, 96, 64);
     for (let i = 0; i < 8; i++) {
-        const metal = i % 2;
-        add(ball, { color: metal ? 0xd0a050 : 0x4060a0, metalness: metal, roughness: 0.3 + 0.1 * i })
+        const metal = i % 2, look = { color: metal ? 0xd0a050 : 0x4060a0, metalness: metal, roughness: 0.3 + 0.1 * i };
+        add(ball, matte ? white : look)
             .position.set(1.2 * (i % 4) - 1.8, 0.45, i < 4 ? -0.8 : 0.8);
     }
 }
 
-// The ball is not patched, because a probe stands in for the lights.
-async function addProbe() {
-    scene.add(probeOf(await (await fetch('probe.json')).json()));
-    const geometry = new THREE.SphereGeometry(0.01, 96, 64);
-    add(geometry, { name: 'matte', color: 0xffffff, roughness: 1 }, null).position.set(0, 0.6, 0);
+function addProbe() {
+    const probe = new THREE.LightProbe();
+    probe.position.set(0, 0.6, 0);
+    scene.add(lightProbe(lmp, scene, probe));
+    add(new THREE.SphereGeometry(0.01, 96, 64), { name: 'matte', color: 0xffffff, roughness: 1 }).position.set(0, 0.6, 0);
     camera.position.set(0, 0.6, 0.04);
     camera.lookAt(0, 0.6, 0);
     camera.near = 0.005;
@@ -58,12 +66,21 @@ function addOwnLights() {
     scene.add(sun, bulb);
 }
 
-if (asked.has('probe'))
-    await addProbe();
-else
+let lit; // what is updated every frame: lights, or probes
+if (asked.has('probe')) {
+    addProbe();
+} else {
     addBalls();
-if (!asked.has('probe') && !asked.has('alone'))
-    addOwnLights();
+    if (!asked.has('alone') && !matte)
+        addOwnLights();
+    if (matte) {
+        lit = new LightProbeVolume(lmp, new THREE.Box3(new THREE.Vector3(-4.5, -0.1, -4.5), new THREE.Vector3(4.5, 1.1, 4.5)), [37, 7, 37]);
+        lit.addScene(scene);
+    } else {
+        lit = new SphereLights(lmp, scene, { bands: 16 });
+    }
+    lit.update(scene);
+}
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.setSize(...size);
@@ -85,8 +102,7 @@ if (asked.has('export'))
     await exportAll();
 else
     renderer.setAnimationLoop((time) => {
-        lampion.setLights(lights.map((light, i) => ({
-            ...light, position: [light.position[0], light.position[1] + 0.2 * Math.sin(time / 700 + i), light.position[2]],
-        })));
+        lamps.forEach((lamp, i) => { lamp.position.y = lights[i].position[1] + 0.2 * Math.sin(time / 700 + i); });
+        lit?.update(scene);
         renderer.render(scene, camera);
     });

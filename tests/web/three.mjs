@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// three.mjs FOLDER QUERY CHROMIUM: opens FOLDER/index.html?QUERY in headless Chromium without a GPU,
+// three.mjs FOLDER PAGE CHROMIUM: opens FOLDER/PAGE in headless Chromium without a GPU,
 // and writes what the page sends into FOLDER, until it has sent three.exr.
 import { spawn } from 'node:child_process';
 import { createServer } from 'node:http';
 import { readFile, writeFile } from 'node:fs/promises';
 import { basename, extname, normalize } from 'node:path';
 
-const [folder, query, program] = process.argv.slice(2);
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json' };
+const [folder, page, program] = process.argv.slice(2);
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json', '.wasm': 'application/wasm' };
 let browser, log = '';
 
 function end(status) {
@@ -43,7 +43,7 @@ async function serve(request, response) {
 const server = createServer(serve).listen(0, '127.0.0.1', () => {
     const options = ['--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
         '--enable-unsafe-swiftshader', '--enable-logging=stderr', `--user-data-dir=${folder}/profile`];
-    browser = spawn(program, [...options, `http://127.0.0.1:${server.address().port}/?${query}`]);
+    browser = spawn(program, [...options, `http://127.0.0.1:${server.address().port}/${page}`]);
     browser.stderr.on('data', (text) => log += text);
     browser.on('exit', () => end(1));
 });

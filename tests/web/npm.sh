@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT
+# The npm package: the same bytes from the same commit, structs where C has them, every function in node (npm.mjs), types
+# that agree with the code, and three.js in a headless browser against `lampion render` of the scenes that pages export. It
+# needs Emscripten, npm, node and Chromium, and three, which package-lock.json names, from npm's registry or its cache.
+set -eu
+. tests/checks/common.sh
+export ASAN_OPTIONS=detect_leaks=0 # GL drivers leak at exit
+skip() {
+    echo "skipped: $*"
+    exit 0
+}
+for tool in emcc node npm chromium; do
+    command -v $tool >/dev/null || skip "$tool is not installed"
+done
+export NODE_PATH=/usr/share/nodejs # of Debian's Emscripten, for a node from elsewhere
+
+for out in once twice; do
+    sh web/package/pack.sh "$BUILD/npm" "$WORK/$out" >"$WORK/log" 2>&1 || fail "$(tail -c 2000 "$WORK/log")"
+done
+package=$(echo "$WORK"/once/lampion-*.tgz)
+cmp -s "$package" "$WORK/twice/$(basename "$package")" || fail "packed twice, the package differs"
+tar -tzf "$package" >"$WORK/files"
+for file in README.md LICENSE index.js index.d.ts api.d.ts three.js lampion.wasm lampion-scalar.wasm shaders/lampion.glsl; do
+    grep -qx "package/$file" "$WORK/files" || fail "the package lacks $file"
+done
+
+# Structs have the layout that C gives them.
+api=$BUILD/npm/simd/web/package
+node --input-type=module - "$api/api.js" >"$WORK/layout.c" <<'END'
+const { structs, constants } = await import(process.argv[2]);
+console.log('#include <lampion/lampion.h>');
+for (const [name, { size, members }] of Object.entries(structs)) {
+    console.log(`_Static_assert(sizeof(lmp_${name}) == ${size}, "${name}");`);
+    for (const [member, , at] of members)
+        console.log(`_Static_assert(offsetof(lmp_${name}, ${member}) == ${at}, "${name}.${member}");`);
+}
+for (const [name, value] of Object.entries(constants))
+    if (Number.isInteger(value) && Math.abs(value) < 2 ** 32)
+        console.log(`_Static_assert((long long)(LMP_${name}) == ${value}, "${name}");`);
+END
+[ "$(grep -c . "$WORK/layout.c")" -gt 400 ] || fail "too few structs and constants"
+emcc -std=c11 -Iinclude -fsyntax-only "$WORK/layout.c" 2>"$WORK/log" || fail "$(head -c 2000 "$WORK/log")"
+
+# As a user has it: a fresh folder, three and the package.
+page=$WORK/page
+mkdir "$page"
+cp examples/three/* "$page"
+cd "$page"
+export XDG_CACHE_HOME="$WORK/cache"
+npm ci --ignore-scripts --no-audit --no-fund --fetch-retries 0 --fetch-timeout 60000 >"$WORK/log" 2>&1 || {
+    ! grep -Eq 'EINTEGRITY|EUSAGE|EJSONPARSE' "$WORK/log" || fail "$(cat "$WORK/log")"
+    skip "npm cannot reach its registry"
+}
+npm install --no-save --offline --no-audit --no-fund "$package" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+cp "$SOURCE/tests/web/npm.mjs" .
+node npm.mjs >"$WORK/log" 2>&1 || fail "$(tail -c 3000 "$WORK/log")"
+
+# draw NAME PAGE OPTION…: writes NAME.exr by the page, and truth.exr of the scene that it exports by lampion render.
+draw() {
+    name=$1
+    node "$SOURCE/tests/web/three.mjs" . "$2" chromium >"$WORK/log" 2>&1 || fail "$name: $(cat "$WORK/log")"
+    shift 2
+    mv three.exr "$name.exr"
+    "$PROGRAM" render scene.gltf --lights lights.json --hide-lights --environment none --no-shadows --size 320x200 "$@" -o truth.exr
+}
+within() {
+    "$PROGRAM" compare "$1.exr" truth.exr --fail-above relmse="$2" >"$WORK/log" 2>&1
+}
+
+draw alone '?export&alone' --bands 16
+within alone 2e-5 || fail "30 lights: $(cat "$WORK/log")"
+draw beside '?export' --bands 16 --keep-lights
+within beside 0.01 || fail "beside three's own lights: $(cat "$WORK/log")"
+! within alone 0.01 || fail "lights that are missing go unseen"
+draw probe '?export&probe' --bands 3 --window none --material matte=lambert:1,1,1
+within probe 1e-4 || fail "a probe: $(cat "$WORK/log")"
+draw volume '?export&volume' --bands 3 --material matte=lambert:1,1,1
+within volume 0.02 || fail "a volume of probes: $(cat "$WORK/log")"
+! within probe 0.02 || fail "probes that are missing go unseen"
+
+# The page of docs/npm.md, with the lines that export it.
+sed -n '/^```html$/,/^```$/{/^```/d;p}' "$SOURCE/docs/npm.md" | sed 's/innerWidth/320/g; s/innerHeight/200/g; /^<\/script>$/d' >first.html
+cat >>first.html <<'END'
+const { EXRExporter, NO_COMPRESSION } = await import('./node_modules/three/examples/jsm/exporters/EXRExporter.js');
+const { GLTFExporter } = await import('./node_modules/three/examples/jsm/exporters/GLTFExporter.js');
+const target = new THREE.WebGLRenderTarget(320, 200, { type: THREE.FloatType });
+scene.add(camera);
+lights.update();
+renderer.setRenderTarget(target);
+renderer.render(scene, camera);
+const send = (name, body) => fetch(name, { method: 'PUT', body });
+await send('scene.gltf', JSON.stringify(await new GLTFExporter().parseAsync(scene)));
+await send('lights.json', JSON.stringify({ lights: [{ position: lamp.position.toArray(), radius: lamp.radius, radiance: lamp.color.toArray().map((value) => lamp.radiance * value) }] }));
+await send('three.exr', await new EXRExporter().parse(renderer, target, { type: THREE.FloatType, compression: NO_COMPRESSION }));
+</script>
+END
+draw first first.html --bands 10
+within first 4e-4 || fail "the page of docs/npm.md is not within 2 %: $(cat "$WORK/log")"
+
+# A room of lanterns on probes, lit beside the page and within it.
+node "$SOURCE/tests/web/lanterns.mjs" "$page" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
