@@ -55,6 +55,27 @@ npm install --no-save --offline --no-audit --no-fund "$package" >"$WORK/log" 2>&
 cp "$SOURCE/tests/web/npm.mjs" .
 node npm.mjs >"$WORK/log" 2>&1 || fail "$(tail -c 3000 "$WORK/log")"
 
+# Types agree with what node has just run, and refuse what it refused.
+if command -v tsc >/dev/null; then
+    cp "$SOURCE/tests/web/npm.ts" .
+    # of three's own types, what three.d.ts names
+    cat >three.d.ts <<'END'
+declare module 'three' {
+    export class Object3D { add(...objects: Object3D[]): this }
+    export class LightProbe extends Object3D {}
+    export class Scene extends Object3D {}
+    export class Material {}
+    export class MeshStandardMaterial extends Material { roughness: number }
+    export class Box3 {}
+    export class Color {}
+    export type ColorRepresentation = Color | string | number;
+    export class Quaternion {}
+}
+END
+    tsc --noEmit --strict --target es2022 --module nodenext --moduleResolution nodenext --lib es2022,dom three.d.ts npm.ts >"$WORK/log" ||
+        fail "$(head -c 2000 "$WORK/log")"
+fi
+
 # draw NAME PAGE OPTION…: writes NAME.exr by the page, and truth.exr of the scene that it exports by lampion render.
 draw() {
     name=$1

@@ -4,6 +4,7 @@
 //
 // Layouts are those of wasm32: every member is aligned to its size, pointers and size_t have 4 bytes.
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { nullable } from './extents.js';
 
 const [include, out] = process.argv.slice(2);
 const { inner: nodes } = JSON.parse(readFileSync(0));
@@ -138,7 +139,18 @@ const title = (name) => name.replace(/(^|_)([a-z])/g, (all, before, letter) => l
 const numbers = { f32: 'Float32Array', f64: 'Float64Array', i16: 'Int16Array', u16: 'Uint16Array', u32: 'Uint32Array', i32: 'Int32Array', u8: 'Uint8Array', i8: 'Int8Array' };
 const floats = (type) => records[type]?.members.every(({ type: one }) => one === 'f32');
 
-function scriptType(type, given) {
+// A struct that C returns has all of its members.
+const returned = new Set();
+function returnedType(name) {
+    if (!returned.has(name)) {
+        returned.add(name);
+        records[name].members.forEach(({ type }) => scriptType(type, false));
+    }
+    return `${title(name)}Result`;
+}
+
+// many: whether structs are counted by the next argument.
+function scriptType(type, given, many = true) {
     if (type === 'bool')
         return 'boolean';
     if (sizes[type])
@@ -156,10 +168,14 @@ function scriptType(type, given) {
             return title(type.to);
         if (numbers[type.to])
             return given && type.constant ? `${numbers[type.to]} | number[]` : numbers[type.to];
-        const one = title(type.to), list = given && type.constant ? `${one} | readonly ${one}[] | Structs<${one}>` : one;
+        if (!given)
+            return `${returnedType(type.to)}[]`;
+        const one = title(type.to), list = type.constant && many ? `${one} | readonly ${one}[] | Structs<${one}>` : one;
         return floats(type.to) ? `${list} | Float32Array` : list;
     }
-    if (given && (type === 'vec3' || type === 'rgb' || type === 'quat'))
+    if (!given)
+        return returnedType(type);
+    if (type === 'vec3' || type === 'rgb' || type === 'quat')
         return `${title(type)} | ArrayLike<number>`;
     return { vec3_array: 'Vec3Array', float_array: 'FloatArray', sh_array: 'ShArray', rgb_array: 'RgbArray' }[type] ?? title(type);
 }
@@ -168,32 +184,40 @@ const comment = (text, indent = '') =>
     text ? `${indent}/**\n${text.replaceAll('*/', '*').split('\n').map((line) => `${indent} * ${line}`.trimEnd()).join('\n')}\n${indent} */\n` : '';
 const made = ({ to, constant }) => to && !constant && (to.to || records[to]);
 
+// An object, or null; numbers, or a struct.
+const resultType = (result) => result.to && opaque(result.to) ? `${title(result.to)} | null`
+    : result.to && records[result.to] && result.to !== 'light' ? returnedType(result.to) : scriptType(result, false);
+
 // What is only written and comes last is returned: objects, and structs.
-function signature({ parameters, result }) {
+function signature({ name, parameters, result }) {
     const given = parameters.filter(({ type }) => !hidden.has(type.to));
     const outs = [];
     while (given.length && made(given.at(-1).type))
         outs.unshift(given.pop());
-    const kind = outs.map(({ type }) => title(type.to.to ?? type.to));
-    const returned = outs.length === 1 ? kind[0] : outs.length ? `[${kind.join(', ')}]`
-        : result === 'void' || result === 'status' ? 'void' : result.to === 'char' ? 'string | null' : scriptType(result, false);
-    const lists = given.map(({ name, type }) => {
-        const plainType = scriptType(type, true), optional = type.to && type.constant && (type.to === 'f32' || records[type.to]);
-        return `${name === 'function' ? 'f' : name}: ${plainType}${optional ? ' | null' : ''}`;
+    const kind = outs.map(({ type }) => type.to.to ? title(type.to.to) : returnedType(type.to));
+    const what = outs.length === 1 ? kind[0] : outs.length ? `[${kind.join(', ')}]`
+        : result === 'void' || result === 'status' ? 'void' : result.to === 'char' ? 'string | null' : resultType(result);
+    const lists = given.map(({ name: one, type }, i) => {
+        const many = /count$/.test(given[i + 1]?.name) && !['spheres', 'surfaces'].includes(type.to);
+        const may = type.to && (nullable.has(one) || nullable.has(`${name}.${one}`) || one === 'lights');
+        return `${one}: ${scriptType(type, true, many)}${may ? ' | null' : ''}`;
     });
-    return `(${lists.join(', ')}): ${result === 'bool' && outs.length ? `${returned} | null` : returned}`;
+    return `(${lists.join(', ')}): ${result === 'bool' && outs.length ? `${what} | null` : what}`;
 }
 
+const signatures = callable.map((one) => `${comment(one.comment, '    ')}    ${one.name}${signature(one)};`);
+const declared = [...returned].map((name) => `export interface ${title(name)}Result {
+${records[name].members.map(({ name: one, type }) => `    ${one}: ${scriptType(type, false)}${type.to && type.to !== 'char' ? ' | null' : ''};`).join('\n')}
+}`);
 const simple = new Set(['vec3_array', 'float_array', 'sh_array', 'rgb_array', ...hidden]);
 const handles = [...new Set(callable.flatMap(({ parameters }) => parameters.map(({ type }) => type.to?.to ?? type.to).filter(opaque)))];
 const written = handles.map((name) => `export interface ${title(name)} { readonly kind: '${name}' }`);
 writeFileSync(`${out}/api.d.ts`, `// Made from Lampion's headers by generate.mjs.
 import type { Structs } from './index.js';
 
-export type Numbers = Float32Array;
 /** Vectors side by side, or three arrays with the bytes from one element to the next; a stride of 0 repeats one. */
-export type Vec3Array = Float32Array | { x: Float32Array, y: Float32Array, z: Float32Array, stride: number };
-export type FloatArray = Float32Array | { at: Float32Array, stride: number };
+export type Vec3Array = Float32Array | number[] | { x: Float32Array, y: Float32Array, z: Float32Array, stride: number };
+export type FloatArray = Float32Array | number[] | { at: Float32Array, stride: number };
 export type RgbArray = Float32Array | { at: Float32Array, stride?: number };
 /** Coefficients side by side, or with a stride in bytes and a layout: SH_INTERLEAVED or SH_PLANAR. */
 export type ShArray = Float32Array | { at: Float32Array, stride?: number, layout?: number };
@@ -204,12 +228,14 @@ ${shown.filter(([name]) => !simple.has(name)).map(([name, { members, comment: te
 ${members.map(({ name: one, type, comment: why }) => `${comment(why, '    ')}    ${one}?: ${scriptType(type, true)}${type.to ? ' | null' : ''};`).join('\n')}
 }`).join('\n\n')}
 
+${declared.join('\n\n')}
+
 export interface Constants {
 ${Object.keys(constants).map((name) => `${comment(comments[name], '    ')}    readonly ${name}: number;`).join('\n')}
 }
 
 export interface Functions {
-${callable.map((one) => `${comment(one.comment, '    ')}    ${one.name}${signature(one)};`).join('\n')}
+${signatures.join('\n')}
 }
 `);
 

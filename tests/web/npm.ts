@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// npm.ts: what the npm package's types allow and refuse; compiled, not run.
+import { Box3, LightProbe, MeshStandardMaterial, Quaternion, Scene } from 'three';
+import { LampionError, compileLampion, load } from 'lampion';
+import type { Light, Surfaces } from 'lampion';
+import { ProbeGrid } from 'lampion/probes';
+import { LightProbeVolume, SphereLight, SphereLights, SplatLights, lightProbe } from 'lampion/three';
+
+const lmp = await load({ memory: 1 << 24 });
+const sh: Float32Array = lmp.floats(27);
+const lamp: Light = { kind: lmp.LIGHT_SPHERE, position: [0, 3, 0], radius: 0.5, radiance: [10, 8, 5] };
+lmp.light_project(3, [lamp], 1, [0, 0, 0], sh);
+const { r, g, b } = lmp.probe_irradiance(3, sh, [0, 1, 0]);
+const total: number = r + g + b;
+const cap = lmp.light_find_cap(lamp, { x: 0, y: 0, z: 0 });
+const one: number = cap.one_minus_cos;
+const field = lmp.field_create({ nodes: [2, 2, 2], bands: 3 });
+lmp.field_update(field, [lamp], 1);
+lmp.field_destroy(field);
+const surfaces: Surfaces = { position: sh, normal: sh, view: sh, material: { diffuse: [1, 1, 1] } };
+lmp.shade_n(null, surfaces, 1, [lamp], 1, sh);
+const lights = lmp.structs('light', 2);
+lights.set(0, lamp);
+lmp.light_project_n(3, lights, 2, null, { x: sh, y: sh, z: sh, stride: 12 }, 1, { at: sh, layout: lmp.SH_PLANAR });
+const [whole, series] = lmp.brdf_table_find_albedo(lmp.brdf_table_create(null, lmp.brdf_create_lambert([1, 1, 1])), 0, 0);
+const found = lmp.probe_recognize(3, 1e-3, sh, sh);
+const sign: number | undefined = found?.sign;
+lmp.sh_project_function(3, 0, ([x, y, z]) => x * y + z, sh);
+// @ts-expect-error a wrong name
+lmp.light_project(3, [{ radious: 1 }], 1, [0, 0, 0], sh);
+// @ts-expect-error too few arguments
+lmp.sh_eval(3, [0, 0, 1]);
+// @ts-expect-error an object of another kind
+lmp.field_update(lmp.sh_product_create(3), [lamp], 1);
+try { await compileLampion(); } catch (error) { if (error instanceof LampionError) console.log(error.code, total, one, whole.r, series.g, sign); }
+
+const scene = new Scene(), glow = new SphereLight(0xffffff, 1, 0.1);
+scene.add(glow);
+const lit = new SphereLights(lmp, scene, { bands: 5 });
+lit.update();
+const volume = new LightProbeVolume(lmp, new Box3(), [2, 2, 2], { worker: new Worker('x') });
+const material: MeshStandardMaterial = volume.add(new MeshStandardMaterial());
+const probe: LightProbe = lightProbe(lmp, scene);
+new SplatLights(lmp).rotate(new Quaternion(), 3, new Float32Array(24));
+new ProbeGrid(lmp, { min: [0, 0, 0], max: [1, 1, 1], size: [2, 2, 2] }).light({ center: lmp.floats(3), radius: lmp.floats(1), radiance: lmp.floats(3) }, 1);
+console.log(material, probe);
