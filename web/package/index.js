@@ -22,7 +22,8 @@ async function compile(source, simd) {
     const url = source ? new URL(source, globalThis.location?.href)
         : simd ? new URL('lampion.wasm', import.meta.url) : new URL('lampion-scalar.wasm', import.meta.url);
     if (url.protocol === 'file:') {
-        const { readFile } = await import(/* webpackIgnore: true */ 'node:fs/promises');
+        const node = 'node:fs/promises'; // in a variable, for bundlers for browsers not to look for it
+        const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ node);
         return WebAssembly.compile(await readFile(url));
     }
     const response = await fetch(url);
