@@ -25,6 +25,17 @@ code_blocks() {
     awk -v fence='```'"$2" '$0 == fence { inside = 1; next } /^```/ { inside = 0 } inside' "$1"
 }
 
+# python_with MODULE…: prints the first Python that has these modules; nothing if none has.
+python_with() {
+    modules=$(printf 'import %s\n' "$@")
+    for python in /usr/bin/python3 "$(command -v python3 || true)"; do
+        if "$python" -c "$modules" 2>/dev/null; then
+            echo "$python"
+            break
+        fi
+    done
+}
+
 # own_scene FILE: writes a scene that stands for the reader's own, a triangle of the material floor.
 own_scene() {
     cat >"$1" <<'GLTF'

@@ -49,7 +49,7 @@ judge() {
         }' - "$1"
 }
 
-by_hand=$(git ls-files '*.c' '*.h' '*.sh' '*.awk' '*.cmake' '*CMakeLists.txt' 'shaders/*/*' dev .ci/run)
+by_hand=$(git ls-files '*.c' '*.h' '*.sh' '*.awk' '*.py' '*.cmake' '*CMakeLists.txt' 'shaders/*/*' dev .ci/run)
 {
     long_files $by_hand
     long_functions $(printf '%s\n' $by_hand | grep -E '\.[ch]$|^shaders/')

@@ -45,7 +45,7 @@ found() {
     done
 }
 
-old=$(found "app src include shaders tests fuzz examples cmake docs dev README.md CONTRIBUTING.md CHANGELOG.md CMakeLists.txt")
+old=$(found "app src include shaders tests fuzz examples python cmake docs dev README.md CONTRIBUTING.md CHANGELOG.md CMakeLists.txt")
 [ -z "$old" ] || fail "$old"
 
 # A planted name must be found.

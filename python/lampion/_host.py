@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+"""The hooks that the library calls while it works: threads, progress, and the user's patience."""
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Callable
+
+from ._core import check, ffi, integer
+
+
+class Host:
+    """An lmp_host for one call. An exception in `progress`, or Ctrl+C, cancels the call, and is
+    raised once the library has returned."""
+
+    def __init__(self, threads: int = 1, progress: Callable[[float], Any] | None = None):
+        self.threads = integer("threads", threads, 1, 1024)
+        if progress is not None and not callable(progress):
+            raise TypeError("progress must be callable")
+        self._failure: BaseException | None = None
+        self._progress = progress
+        self.c = ffi.new("lmp_host *")
+        self._hooks = [ffi.callback("bool(void *)", lambda user: self._failure is not None,
+                                    error=True, onerror=self._fail)]
+        self.c.cancelled = self._hooks[0]
+        if self.threads > 1:
+            self._hooks.append(ffi.callback(
+                "void(size_t, void (*)(size_t, void *), void *, void *)", self._parallel,
+                onerror=self._fail))
+            self.c.parallel = self._hooks[-1]
+        if progress:
+            self._hooks.append(ffi.callback("void(double, void *)", self._report,
+                                            onerror=self._fail))
+            self.c.progress = self._hooks[-1]
+
+    def _fail(self, kind: Any, value: BaseException, trace: Any) -> None:
+        self._failure = self._failure or value
+
+    def _report(self, done: float, user: Any) -> None:
+        if self._failure is None and self._progress:
+            self._progress(done)
+
+    def _parallel(self, count: int, task: Any, data: Any, user: Any) -> None:
+        # Leaving the pool waits for every task, also after an exception.
+        with ThreadPoolExecutor(min(self.threads, max(count, 1))) as pool:
+            for _ in pool.map(lambda index: task(index, data), range(count)):
+                pass
+
+    def check(self, result: int, error: Any = None) -> None:
+        """Raises what stopped the call, or what its result says."""
+        if self._failure is not None:
+            raise self._failure
+        check(result, error)
+
+
+def created(ctype: str, create: Callable[[Any, Any], int], host: Host | None = None) -> Any:
+    """The object that `create` makes, which gets an lmp_host and where the object goes."""
+    host = host or Host()
+    place = ffi.new(ctype + " **")
+    host.check(create(host.c, place))
+    return place[0]
+
+
+def read_object(ctype: str, read: Callable, data: Any) -> Any:
+    """The object that a reader of the library makes of bytes, or of what has a buffer of them."""
+    try:
+        buffer = ffi.from_buffer(data)
+    except (TypeError, ValueError):
+        raise TypeError(f"data must be bytes, not {type(data).__name__}") from None
+    place = ffi.new(ctype + " **")
+    error = ffi.new("lmp_parse_error *")
+    check(read(ffi.NULL, buffer, len(buffer), error, place), error)
+    return place[0]
+
+
+def written(size: int, write: Callable[[int, Any], int]) -> bytes:
+    """The bytes that a writer of the library makes of an object."""
+    data = bytearray(size)
+    check(write(size, ffi.from_buffer(data)))
+    return bytes(data)
+
+
