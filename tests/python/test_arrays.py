@@ -132,10 +132,11 @@ class Outputs(Case):
 
     def test_overlap(self):
         # what is written for one element would be read as the next one's direction
-        memory = np.empty((25, 9), np.float32)
-        memory[:24, :3] = ways
-        expected = sh.eval(3, ways)
-        self.same(sh.eval(3, memory[:24, :3], out=memory[1:]), expected)
+        many = unit_vectors(3, 2000).astype(np.float32)
+        memory = np.empty((2001, 9), np.float32)
+        memory[:2000, :3] = many
+        expected = sh.eval(3, many)
+        self.same(sh.eval(3, memory[:2000, :3], out=memory[1:]), expected)
         c = expected.copy()
         m = sh.make_rotation(3, [0.1, 0.2, 0.3, 0.9])
         self.same(sh.rotate(m, c, out=c), sh.rotate(m, expected))
