@@ -1,5 +1,5 @@
-# The Debian packages liblampionVERSION, liblampion-dev, liblampion-doc and lampion, made by `cpack`. Nothing in them
-# depends on where or when they are made: SOURCE_DATE_EPOCH is the time of every file.
+# The Debian packages liblampionVERSION, liblampion-dev, liblampion-doc, python3-lampion and lampion, made by `cpack`.
+# Nothing in them depends on where or when they are made: SOURCE_DATE_EPOCH is the time of every file.
 if(CPACK_TEMPORARY_INSTALL_DIRECTORY) # read again by cpack, before it makes archives of what it has installed
   execute_process(COMMAND find ${CPACK_TEMPORARY_INSTALL_DIRECTORY} -exec touch -h -d @$ENV{SOURCE_DATE_EPOCH} {} +
     COMMAND_ERROR_IS_FATAL ANY)
@@ -19,7 +19,7 @@ set(CPACK_PACKAGE_CONTACT "The Lampion authors <maintainers@users.noreply.h-seed
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_FILE})
-set(CPACK_COMPONENTS_ALL library development documentation tools)
+set(CPACK_COMPONENTS_ALL library development documentation python tools)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PACKAGE_RELEASE ${release})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -51,6 +51,16 @@ set(CPACK_DEBIAN_DOCUMENTATION_DESCRIPTION
   "${about}\n\nThese are its pages and the descriptions of its functions, as a site to read \
 without a network.")
 
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-lampion)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+# what cffi has generated needs its backend alone; structures have the layout of the version that was declared
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+  "liblampion${soname} (>= ${PROJECT_VERSION}), python3:any, python3-cffi-backend, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS lampion)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+  "${about}\n\nThese are the library's functions for Python, on NumPy's arrays.")
+
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME lampion)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
@@ -80,7 +90,15 @@ file(WRITE ${PROJECT_BINARY_DIR}/debian/changelog.Debian
   "lampion (${PROJECT_VERSION}-${release}) unstable; urgency=medium\n\n  * Version ${PROJECT_VERSION}.\n\n \
 -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
 execute_process(COMMAND gzip -9nf ${PROJECT_BINARY_DIR}/debian/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
-foreach(component IN ITEMS library development documentation tools)
+# Python compiles its modules when they are installed, and forgets what it compiled when they go, as Debian's packages
+# have it; in a folder that is not the system's (DPKG_ROOT) there is nothing that would run them.
+file(WRITE ${PROJECT_BINARY_DIR}/debian/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ] && [ -z \"$DPKG_ROOT\" ] && \
+command -v py3compile >/dev/null; then\n    py3compile -p python3-lampion\nfi\n")
+file(WRITE ${PROJECT_BINARY_DIR}/debian/prerm "#!/bin/sh\nset -e\nif [ -z \"$DPKG_ROOT\" ] && \
+command -v py3clean >/dev/null; then\n    py3clean -p python3-lampion\nfi\n")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/postinst ${PROJECT_BINARY_DIR}/debian/prerm)
+
+foreach(component IN ITEMS library development documentation python tools)
   string(TOUPPER ${component} upper)
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   install(FILES LICENSE DESTINATION ${folder} RENAME copyright COMPONENT ${component})

@@ -12,7 +12,7 @@ fi
 multiarch=$(gcc -print-multiarch)
 version=$("$PROGRAM" --version | sed 's/lampion //')
 soversion=${version%.*}
-packages="liblampion$soversion liblampion-dev liblampion-doc lampion"
+packages="liblampion$soversion liblampion-dev liblampion-doc python3-lampion lampion"
 root=$WORK/root
 lib=$root/usr/lib/$multiarch
 
@@ -61,6 +61,22 @@ for library in libassimp5 libdraco7 libembree3-3 libglfw3 libjpeg62-turbo libmes
 done
 [ "$(sed 's/ (.*//' "$WORK/liblampion$soversion.depends")" = libc6 ] || fail "the library depends on more than libc6"
 [ "$(objdump -p "$lib/liblampion.so.$version" | sed -n 's/ *SONAME *//p')" = "liblampion.so.$soversion" ] || fail "soname"
+
+for package in "liblampion$soversion (>= $version)" python3:any python3-cffi-backend python3-numpy; do
+    grep -qF "$package" "$WORK/python3-lampion.depends" || fail "python3-lampion does not depend on $package"
+done
+
+# The Python package, with the library and the program beside it.
+python=$(python_with numpy _cffi_backend)
+if [ -n "$python" ]; then
+    cat >"$WORK/try.py" <<'TRY'
+import lampion
+print(lampion.version(), *lampion.render("builtin:ball", size=(16, 8), bands=3).shape)
+TRY
+    PYTHONPATH=$root/usr/lib/python3/dist-packages LD_LIBRARY_PATH=$lib PATH=$root/usr/bin:$PATH \
+        PYTHONDONTWRITEBYTECODE=1 "$python" "$WORK/try.py" >"$WORK/python.txt" || fail "the Python package does not run"
+    [ "$(cat "$WORK/python.txt")" = "$version 8 16 3" ] || fail "the Python package prints $(cat "$WORK/python.txt")"
+fi
 
 # The program, its manual and its completion.
 "$root/usr/bin/lampion" project --light 0,3,0 --radius 0.5 --bands 2 >/dev/null || fail "the program does not run"
