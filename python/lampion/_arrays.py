@@ -16,6 +16,11 @@ from ._core import bands as checked_bands
 from ._core import constants, ffi
 
 _cast = ffi.cast
+_float_pointer = ffi.typeof("float *")  # types are looked up once, because strings are parsed
+_vec3_array = ffi.typeof("lmp_vec3_array *")
+_float_array = ffi.typeof("lmp_float_array *")
+_sh_array = ffi.typeof("lmp_sh_array *")
+_rgb_array = ffi.typeof("lmp_rgb_array *")
 _float32 = np.dtype(np.float32)
 _any: tuple[None, ...] = (None,)
 
@@ -56,8 +61,11 @@ def finite(name: str, array: np.ndarray) -> np.ndarray:
 
 def within(name: str, array: np.ndarray, least: float, most: float = math.inf) -> np.ndarray:
     """Refuses numbers outside a range, and those that are not finite."""
-    finite(name, array)
-    if array.size and not (array.min() >= least and array.max() <= most):
+    if array.size == 0:
+        return array
+    low, high = (array.item(),) * 2 if array.size == 1 else (array.min(), array.max())
+    if not (least <= low and high <= most and abs(high) < math.inf):  # as NaN is not, either
+        finite(name, array)
         bound = f"at least {least:g}" if most == math.inf else f"{least:g} … {most:g}"
         raise ValueError(f"{name} must be {bound}")
     return array
@@ -65,9 +73,20 @@ def within(name: str, array: np.ndarray, least: float, most: float = math.inf) -
 
 def unit(name: str, array: np.ndarray) -> np.ndarray:
     """Refuses vectors (…, 3) that are not unit, by the tolerance of base.h."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        length2 = np.square(array) @ np.ones(3, array.dtype)  # a fifth of einsum's time
-    if array.size and not np.abs(length2 - 1).max() <= constants.UNIT_TOLERANCE:
+    if array.size == 0:
+        return array
+    if array.size == 3:
+        x, y, z = array.reshape(3).tolist()
+        least = most = x * x + y * y + z * z
+    else:
+        x, y, z = array[..., 0], array[..., 1], array[..., 2]
+        with np.errstate(over="ignore", invalid="ignore"):
+            length2 = x * x  # a quarter of einsum's time
+            length2 += y * y
+            length2 += z * z
+        least, most = length2.min(), length2.max()
+    tolerance = constants.UNIT_TOLERANCE
+    if not (1 - tolerance <= least and most <= 1 + tolerance):
         raise ValueError(f"{name} must be unit vectors: divide them by their lengths")
     return array
 
@@ -118,12 +137,9 @@ def address(array: np.ndarray) -> int:
 
 def common_shape(*arrays: tuple[str, np.ndarray, int]) -> tuple[int, ...]:
     """The shape that arrays, given as name, array and number of core axes, broadcast to."""
-    shapes = [array.shape[:array.ndim - core] for _, array, core in arrays]
-    known = [shape for shape in shapes if shape]
-    if not known:
-        return ()
-    if all(shape == known[0] for shape in known):
-        return known[0]
+    known = {array.shape[:array.ndim - core] for _, array, core in arrays if array.ndim > core}
+    if len(known) < 2:
+        return known.pop() if known else ()
     try:
         return np.broadcast_shapes(*known)
     except ValueError:
@@ -154,15 +170,15 @@ def vec3_array(array: np.ndarray, shape: tuple[int, ...], keep: list) -> Any:
     step = array.strides[-1]
     start = address(array)
     keep.append(array)
-    return ffi.new("lmp_vec3_array *", (_cast("float *", start), _cast("float *", start + step),
-                                        _cast("float *", start + 2 * step), stride))[0]
+    return ffi.new(_vec3_array, (_cast(_float_pointer, start), _cast(_float_pointer, start + step),
+                                 _cast(_float_pointer, start + 2 * step), stride))[0]
 
 
 def float_array(array: np.ndarray, shape: tuple[int, ...], keep: list) -> Any:
     """An lmp_float_array of numbers broadcast to `shape`."""
     array, stride = _elements(array, 0, shape)
     keep.append(array)
-    return ffi.new("lmp_float_array *", (_cast("float *", address(array)), stride))[0]
+    return ffi.new(_float_array, (_cast(_float_pointer, address(array)), stride))[0]
 
 
 class Result:
@@ -185,7 +201,10 @@ class Result:
         if not out.flags.writeable:
             raise ValueError(f"{name} is read-only")
         self.out = self.target = out
-        if not out.flags.aligned or any(np.may_share_memory(out, array) for array in reads):
+        for array in reads:
+            if np.may_share_memory(out, array):
+                self.target = np.empty(shape, dtype)
+        if not out.flags.aligned:
             self.target = np.empty(shape, dtype)
 
     def pointer(self, ctype: str = "float *") -> Any:
@@ -198,6 +217,8 @@ class Result:
         """The target as (count, values), which takes another target if that would be a copy."""
         lead = self.target.ndim - core
         flat = (math.prod(self.shape[:lead]), math.prod(self.shape[lead:]))
+        if flat == self.target.shape:
+            return self.target
         rows = self.target.reshape(flat)
         if not np.may_share_memory(rows, self.target):
             self.target = np.empty(self.shape, _float32)
@@ -217,7 +238,7 @@ class Result:
         else:
             self.target = np.empty(self.shape, _float32)
             rows, layout, stride = self.target.reshape(count, values), 0, 0
-        return ffi.new("lmp_sh_array *", (_cast("float *", address(rows)), stride, layout))[0]
+        return ffi.new(_sh_array, (_cast(_float_pointer, address(rows)), stride, layout))[0]
 
     def rgb(self) -> Any:
         """An lmp_rgb_array of colors (…, 3)."""
@@ -226,7 +247,7 @@ class Result:
         if rows.size and (inner != 4 or stride < 12):
             self.target = np.empty(self.shape, _float32)
             rows, stride = self.target.reshape(-1, 3), 0
-        return ffi.new("lmp_rgb_array *", (_cast("float *", address(rows)), stride))[0]
+        return ffi.new(_rgb_array, (_cast(_float_pointer, address(rows)), stride))[0]
 
     def finish(self) -> Any:
         """The result; a NumPy scalar if it has no axes, as NumPy's functions return it."""

@@ -54,14 +54,18 @@ def project_zonal(bands: int, radius: ArrayLike, distance: ArrayLike, *,
     return result.finish()
 
 
+_spheres_pointer = ffi.typeof("lmp_spheres *")
+_white = np.ones(3, np.float32)
+_white_array = _arrays.vec3_array(_white, (), [])
+
+
 def _spheres(center: NDArray, radii: NDArray, radiance: NDArray, shape: tuple[int, ...],
              keep: list) -> Any:
-    return ffi.new("lmp_spheres *", {"center": _arrays.vec3_array(center, shape, keep),
-                                     "radius": _arrays.float_array(radii, shape, keep),
-                                     "radiance": _arrays.vec3_array(radiance, shape, keep)})
-
-
-_white = np.ones(3, np.float32)
+    """lmp_spheres."""
+    white = radiance is _white
+    return ffi.new(_spheres_pointer, (
+        _arrays.vec3_array(center, shape, keep), _arrays.float_array(radii, shape, keep),
+        _white_array if white else _arrays.vec3_array(radiance, shape, keep)))
 
 
 def project(bands: int, center: ArrayLike, radius: ArrayLike, point: ArrayLike, *,
