@@ -49,7 +49,7 @@ SOURCE_DATE_EPOCH=$(git log -1 --format=%ct) cmake --preset package -DLAMPION_PR
     "-DLAMPION_OBJECTS=$(echo $objects | tr ' ' ';')" >"$WORK/log" 2>&1 || fail "$(tail -n 40 "$WORK/log")"
 released
 folder=out/release-$version
-for file in "liblampion${version%.*}_$version-1_"*.deb "liblampion-dev_$version-1_"*.deb "liblampion-doc_$version-1_all.deb" \
+for file in "liblampion${version%.*}_$version-1_"*.deb "liblampion-dev_$version-1_"*.deb "liblampion-doc_$version-1_all.deb" "python3-lampion_$version-1_all.deb" \
     "lampion-$version.tar.gz" release-notes.md SHA256SUMS; do
     [ -s "$(echo $folder/$file)" ] || fail "no $file in $(ls $folder)"
 done

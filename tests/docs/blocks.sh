@@ -6,6 +6,7 @@
 #   glsl  a fragment shader, compiled beside the installed lampion.glsl
 #   hlsl  a pixel shader, and metal, compiled beside the installed variants (as tests/gpu/variants.sh does)
 #   json  a lights file, which the program reads
+#   python run by a Python that has NumPy and cffi, on the package that checks.libraries has installed
 # The HTML comment on the line before a block may say
 #   <!-- not run: REASON -->   the block is left out; the reason is printed
 #   <!-- file: NAME -->        the block is this file of the folder (c, glsl: and is compiled too)
@@ -17,6 +18,7 @@ set -eu
 . tests/checks/common.sh
 document=docs/$1.md
 [ -f "$document" ] || document=$1.md
+! grep -q '^```python' "$document" || . tests/python/package.sh
 
 cmake --install "$BUILD" --prefix "$WORK/prefix" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
 mkdir "$WORK/bin"
@@ -94,6 +96,11 @@ read_json() {
     fi
 }
 
+# The package's own program, because the stand-in would add its options after the scene.
+run_python() {
+    LAMPION_PROGRAM=$PROGRAM PYTHONDONTWRITEBYTECODE=1 "$python" -W error "$1"
+}
+
 # run_block LANGUAGE FILE, in the document's folder; standard output to ../printed.
 run_block() {
     case $1 in
@@ -101,6 +108,7 @@ run_block() {
     c) compile_c "$2" ;;
     glsl | vert | frag | comp) compile_glsl "$2" ;;
     hlsl | metal) "compile_$1" "$2" ;;
+    python) run_python "$2" ;;
     json) read_json "$2" ;;
     esac </dev/null >../printed 2>../complaints
 }
