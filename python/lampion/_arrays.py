@@ -101,6 +101,12 @@ def points(name: str, value: Any) -> np.ndarray:
     return numbers(name, value, (3,))
 
 
+def colors(name: str, value: Any) -> np.ndarray:
+    """Finite colors (…, 3); a number stands for gray."""
+    array = numbers(name, value)
+    return finite(name, numbers(name, np.full(3, array) if array.ndim == 0 else array, (3,)))
+
+
 def color(name: str, value: Any, most: float = float(np.finfo(np.float32).max)) -> list[float]:
     """One color 0 … most; a number stands for gray."""
     array = within(name, numbers(name, value), 0, most)

@@ -91,8 +91,9 @@ _numbers = {"float": np.float32, "double": np.float64, "int": np.intc, "_Bool": 
 
 
 def dtype_of(ctype: Any) -> np.dtype:
-    """The NumPy type of the same layout as a C type. Members of unions overlap as in C; vectors
-    and colors are arrays of their components, and pointers are addresses."""
+    """The NumPy type of the same layout as a C type. Of a union it has the first of the largest
+    members, because NumPy can neither join nor save arrays whose members overlap; vectors and
+    colors are arrays of their components, and pointers are addresses."""
     ctype = ffi.typeof(ctype) if isinstance(ctype, str) else ctype
     if ctype.cname in _vectors:
         return np.dtype((np.float32, _vectors[ctype.cname]))
@@ -104,16 +105,14 @@ def dtype_of(ctype: Any) -> np.dtype:
         return np.dtype(np.uintp)
     if ctype.kind == "array":
         return np.dtype((dtype_of(ctype.item), ctype.length))
-    fields: dict[str, tuple[np.dtype, int]] = {}
+    fields: dict[int, tuple[str, np.dtype]] = {}
     for name, field in ctype.fields:
-        if name:
-            fields[name] = (dtype_of(field.type), field.offset)
-        else:  # an anonymous union
-            for inner, member in field.type.fields:
-                fields[inner] = (dtype_of(member.type), field.offset + member.offset)
-    return np.dtype({"names": list(fields), "formats": [kind for kind, _ in fields.values()],
-                     "offsets": [offset for _, offset in fields.values()],
-                     "itemsize": ffi.sizeof(ctype)})
+        dtype = dtype_of(field.type)
+        if field.offset not in fields or fields[field.offset][1].itemsize < dtype.itemsize:
+            fields[field.offset] = (name, dtype)
+    return np.dtype({"names": [name for name, _ in fields.values()],
+                     "formats": [dtype for _, dtype in fields.values()], "offsets": list(fields),
+                     "itemsize": ffi.sizeof(ctype)}, align=True)
 
 
 def record(struct: Any) -> SimpleNamespace:

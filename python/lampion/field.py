@@ -24,9 +24,9 @@ class Field(_core.Owner):
     ----------
     bands : int
         1 … 10; 0 means 5.
-    nodes : three of int
+    nodes : int, or three of int
         Along x, y, z, 2 … 1024 each, at most 2^24 in all; 0 means 16.
-    origin, cell : array_like, (3,)
+    origin, cell : array_like, (3,) or ()
         Position of the first node, and the distance between nodes; 0 means 1.
     light_max : int
         The number of lights it has room for, 1 … 65536; 0 means 1024.
@@ -39,20 +39,20 @@ class Field(_core.Owner):
 
     __slots__ = ()
 
-    def __init__(self, bands: int = 0, *, nodes: tuple[int, int, int] = (0, 0, 0),
-                 origin: ArrayLike = (0, 0, 0), cell: ArrayLike = (0, 0, 0), light_max: int = 0,
+    def __init__(self, bands: int = 0, *, nodes: int | tuple[int, int, int] = 0,
+                 origin: ArrayLike = 0, cell: ArrayLike = 0, light_max: int = 0,
                  error: float = 0, reach: float = 0):
         desc = ffi.new("lmp_field_desc *")
         desc.bands = _core.integer_or_0("bands", bands, 1, constants.FIELD_BANDS_MAX)
-        if np.shape(nodes) != (3,):
-            raise ValueError("nodes must be three numbers")
-        desc.nodes = [_core.integer_or_0("nodes", n, 2, constants.FIELD_NODES_MAX)
-                      for n in nodes]
+        along = nodes if isinstance(nodes, (tuple, list)) else (nodes,) * 3
+        if len(along) != 3:
+            raise ValueError("nodes must be a number or three numbers")
+        desc.nodes = [_core.integer_or_0("nodes", n, 2, constants.FIELD_NODES_MAX) for n in along]
         for name, value in (("origin", origin), ("cell", cell)):
-            array = _arrays.finite(name, _arrays.numbers(name, value, (3,)))
-            if array.shape != (3,):
+            array = _arrays.finite(name, _arrays.numbers(name, value))
+            if array.shape not in ((), (3,)):
                 raise ValueError(f"{name} must have the shape (3,), not {array.shape}")
-            setattr(desc, name, tuple(array.tolist()))
+            setattr(desc, name, tuple(np.broadcast_to(array, 3).tolist()))
         desc.light_max = _core.integer_or_0("light_max", light_max, 1,
                                                      constants.FIELD_LIGHTS_MAX)
         desc.error = _core.number_or_0("error", error, 1e-5, 1)

@@ -3,8 +3,8 @@
 
 Lights are NumPy arrays of the type `dtype`, the library's own structure; members that a kind does
 not have are 0. The functions named after a kind make them, many at once where their arguments are
-arrays; `join` makes one list of several arrays. Angles are in radians, lengths in one unit of your
-choice.
+arrays; `join` makes one list of several arrays. Colors are (…, 3), or a number for gray. Angles are
+in radians, lengths in one unit of your choice.
 """
 from __future__ import annotations
 
@@ -21,13 +21,14 @@ from .sphere import scratch, visibilities
 
 Kind = _core.enumeration("Kind", "lmp_light_kind")
 
-#: The type of a light, of the same layout as lmp_light. ``radiance``, ``intensity`` and
-#: ``irradiance`` are one member, as are ``half`` and ``corner``.
+#: The type of a light, of the same layout as lmp_light. ``radiance`` is also the intensity or the
+#: irradiance of the kinds that have these, and ``corner`` begins with what C calls ``half``.
 dtype = _core.dtype_of("lmp_light")
 
 _directed = [Kind.SPOT, Kind.DIRECTIONAL, Kind.CAP, Kind.HEMISPHERE, Kind.DISK]
 _placed = [Kind.SPHERE, Kind.POINT, Kind.SPOT, Kind.RECTANGLE, Kind.DISK, Kind.TUBE, Kind.POLYGON]
 _areas = [Kind.RECTANGLE, Kind.DISK, Kind.TUBE, Kind.POLYGON]
+_corners = (constants.LIGHT_CORNERS_MAX, 3)
 
 
 # --- making lights ----------------------------------------------------------------------------
@@ -35,8 +36,7 @@ _areas = [Kind.RECTANGLE, Kind.DISK, Kind.TUBE, Kind.POLYGON]
 
 def _make(kind: int, **members: tuple[ArrayLike, tuple[int, ...]]) -> NDArray:
     """Lights of a kind; of each member its value and core shape."""
-    arrays = {name: _arrays.numbers(name, value, core)
-              for name, (value, core) in members.items()}
+    arrays = {name: _arrays.numbers(name, value, core) for name, (value, core) in members.items()}
     shape = _arrays.common_shape(*[(name, arrays[name], len(core))
                                    for name, (_, core) in members.items()])
     lights = np.zeros(shape, dtype)
@@ -47,15 +47,27 @@ def _make(kind: int, **members: tuple[ArrayLike, tuple[int, ...]]) -> NDArray:
     return lights
 
 
+def _color(name: str, value: ArrayLike) -> tuple[NDArray, tuple[int, ...]]:
+    """A member that is a color."""
+    return _arrays.colors(name, value), (3,)
+
+
+def _padded(corners: NDArray) -> NDArray:
+    """Corners (…, k, 3) as the structure has room for them."""
+    padded = np.zeros(corners.shape[:-2] + _corners, np.float32)
+    padded[..., :corners.shape[-2], :] = corners
+    return padded
+
+
 def sphere(position: ArrayLike, radius: ArrayLike, radiance: ArrayLike) -> NDArray:
     """Spheres: position (…, 3), radius (…) >= 0, radiance (…, 3), W·sr⁻¹·m⁻²."""
     return _make(Kind.SPHERE, position=(position, (3,)), radius=(radius, ()),
-                 radiance=(radiance, (3,)))
+                 radiance=_color("radiance", radiance))
 
 
 def point(position: ArrayLike, intensity: ArrayLike) -> NDArray:
     """Points: position (…, 3), intensity (…, 3), W·sr⁻¹."""
-    return _make(Kind.POINT, position=(position, (3,)), intensity=(intensity, (3,)))
+    return _make(Kind.POINT, position=(position, (3,)), radiance=_color("intensity", intensity))
 
 
 def spot(position: ArrayLike, direction: ArrayLike, inner: ArrayLike, outer: ArrayLike,
@@ -63,49 +75,52 @@ def spot(position: ArrayLike, direction: ArrayLike, inner: ArrayLike, outer: Arr
     """Spots: position and direction (…, 3), unit and from the light, half angles 0 <= inner <=
     outer <= pi (…), intensity (…, 3), W·sr⁻¹."""
     return _make(Kind.SPOT, position=(position, (3,)), direction=(direction, (3,)),
-                 inner=(inner, ()), outer=(outer, ()), intensity=(intensity, (3,)))
+                 inner=(inner, ()), outer=(outer, ()), radiance=_color("intensity", intensity))
 
 
 def directional(direction: ArrayLike, irradiance: ArrayLike) -> NDArray:
     """Directional lights: direction (…, 3), unit and to the light, irradiance (…, 3), W·m⁻²."""
-    return _make(Kind.DIRECTIONAL, direction=(direction, (3,)), irradiance=(irradiance, (3,)))
+    return _make(Kind.DIRECTIONAL, direction=(direction, (3,)),
+                 radiance=_color("irradiance", irradiance))
 
 
 def cap(direction: ArrayLike, angle: ArrayLike, radiance: ArrayLike) -> NDArray:
     """Caps, such as a sun: direction (…, 3), unit and to the light, half angle 0 … pi (…),
     radiance (…, 3)."""
     return _make(Kind.CAP, direction=(direction, (3,)), angle=(angle, ()),
-                 radiance=(radiance, (3,)))
+                 radiance=_color("radiance", radiance))
 
 
 def hemisphere(direction: ArrayLike, radiance: ArrayLike, ground: ArrayLike) -> NDArray:
     """Skies: direction (…, 3), unit and up, radiance above and `ground` below (…, 3)."""
-    return _make(Kind.HEMISPHERE, direction=(direction, (3,)), radiance=(radiance, (3,)),
-                 ground=(ground, (3,)))
+    return _make(Kind.HEMISPHERE, direction=(direction, (3,)),
+                 radiance=_color("radiance", radiance), ground=_color("ground", ground))
 
 
 def rectangle(position: ArrayLike, half: ArrayLike, radiance: ArrayLike,
               two_sided: ArrayLike = False) -> NDArray:
     """Rectangles: center (…, 3), half (…, 2, 3) from it to the middles of two adjacent sides,
     radiance (…, 3). The normal, to the side that shines, is that of half[0] × half[1]."""
-    return _make(Kind.RECTANGLE, position=(position, (3,)), half=(half, (2, 3)),
-                 radiance=(radiance, (3,)), two_sided=(two_sided, ()))
+    return _make(Kind.RECTANGLE, position=(position, (3,)),
+                 corner=(_padded(_arrays.numbers("half", half, (2, 3))), _corners),
+                 radiance=_color("radiance", radiance), two_sided=(two_sided, ()))
 
 
 def disk(position: ArrayLike, direction: ArrayLike, radius: ArrayLike, radiance: ArrayLike,
          two_sided: ArrayLike = False) -> NDArray:
     """Disks: center (…, 3), direction (…, 3) of the normal, unit, radius (…), radiance (…, 3)."""
     return _make(Kind.DISK, position=(position, (3,)), direction=(direction, (3,)),
-                 radius=(radius, ()), radiance=(radiance, (3,)), two_sided=(two_sided, ()))
+                 radius=(radius, ()), radiance=_color("radiance", radiance),
+                 two_sided=(two_sided, ()))
 
 
 def tube(position: ArrayLike, half: ArrayLike, radius: ArrayLike, radiance: ArrayLike) -> NDArray:
     """Tubes with round ends: center (…, 3), half (…, 3) from it to an end of the axis, radius (…),
     radiance (…, 3)."""
-    axis = _arrays.numbers("half", half, (3,))
-    both = np.stack([axis, np.zeros_like(axis)], axis=-2)
-    return _make(Kind.TUBE, position=(position, (3,)), half=(both, (2, 3)), radius=(radius, ()),
-                 radiance=(radiance, (3,)))
+    axis = _arrays.numbers("half", half, (3,))[..., np.newaxis, :]
+    return _make(Kind.TUBE, position=(position, (3,)), corner=(_padded(axis), _corners),
+                 radius=(radius, ()),
+                 radiance=_color("radiance", radiance))
 
 
 def polygon(position: ArrayLike, corner: ArrayLike, radiance: ArrayLike,
@@ -113,12 +128,10 @@ def polygon(position: ArrayLike, corner: ArrayLike, radiance: ArrayLike,
     """Polygons: position (…, 3), 3 … 8 corners (…, k, 3) relative to it, in a plane and
     counter-clockwise as seen from the side that shines, radiance (…, 3)."""
     corners = _arrays.numbers("corner", corner, (None, 3))
-    most = constants.LIGHT_CORNERS_MAX
-    count = _core.integer("the number of corners", corners.shape[-2], 3, most)
-    padded = np.zeros(corners.shape[:-2] + (most, 3), np.float32)
-    padded[..., :count, :] = corners
-    return _make(Kind.POLYGON, position=(position, (3,)), corner=(padded, (most, 3)),
-                 radiance=(radiance, (3,)), two_sided=(two_sided, ()), corner_count=(count, ()))
+    count = _core.integer("the number of corners", corners.shape[-2], 3, _corners[0])
+    return _make(Kind.POLYGON, position=(position, (3,)), corner=(_padded(corners), _corners),
+                 radiance=_color("radiance", radiance), two_sided=(two_sided, ()),
+                 corner_count=(count, ()))
 
 
 def join(*lights: ArrayLike) -> NDArray:
@@ -151,8 +164,8 @@ def check(lights: NDArray) -> None:
     _arrays.within("outer", outer, 0, straight)
     if not (inner <= outer).all():
         raise ValueError("inner must be at most outer")
-    _arrays.finite("half", of([Kind.RECTANGLE], "half"))
-    _arrays.finite("half", of([Kind.TUBE], "half")[..., 0, :])
+    _arrays.finite("half", of([Kind.RECTANGLE], "corner")[..., :2, :])
+    _arrays.finite("half", of([Kind.TUBE], "corner")[..., 0, :])
     count = of([Kind.POLYGON], "corner_count")
     if not ((count >= 3) & (count <= constants.LIGHT_CORNERS_MAX)).all():
         raise ValueError(f"corner_count must be 3 … {constants.LIGHT_CORNERS_MAX}")
@@ -167,11 +180,10 @@ def _check_bytes(data: bytes) -> None:
 def as_lights(lights: Any, *, areas: bool = True) -> NDArray:
     """A checked, contiguous list of lights: an array of `dtype`, or a sequence of such arrays."""
     if isinstance(lights, (list, tuple)):
-        # As bytes, because NumPy would lay the members out anew.
-        parts = [as_lights(part).view(np.uint8) for part in lights]
-        lights = np.concatenate(parts).view(dtype) if parts else np.empty(0, dtype)
+        parts = [as_lights(part) for part in lights]
+        lights = np.concatenate(parts) if parts else np.empty(0, dtype)
     if not isinstance(lights, (np.ndarray, np.void)) or lights.dtype != dtype:
-        raise TypeError("lights must be made and joined by the functions of lampion.light")
+        raise TypeError("lights must be made by the functions of lampion.light")
     array = np.ascontiguousarray(lights).reshape(-1)
     if array.nbytes <= 1 << 14:
         _check_bytes(array.tobytes())  # programs light many batches by the same few lights

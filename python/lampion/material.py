@@ -90,10 +90,7 @@ def _make(kind: int, keep: tuple, **members: NDArray) -> Material:
 
 
 def _color(name: str, value: ArrayLike) -> NDArray:
-    array = _arrays.numbers(name, value)
-    if array.ndim == 0:  # gray
-        array = np.full(3, array)
-    return _arrays.within(name, _arrays.numbers(name, array, (3,)), 0)
+    return _arrays.within(name, _arrays.colors(name, value), 0)
 
 
 def lobes(diffuse: ArrayLike, specular: ArrayLike = 0, exponent: ArrayLike = 0) -> Material:
@@ -109,8 +106,9 @@ def metallic_roughness(base_color: ArrayLike, metallic: ArrayLike, roughness: Ar
                        dielectric: NDArray | None = None) -> Material:
     """glTF 2.0's: base_color (…, 3), metallic and roughness (…), all 0 … 1; `dielectric` is what
     the function of that name returns."""
-    members = {"base_color": _fraction("base_color", _color("base_color", base_color), (3,)),
-               "metallic": _fraction("metallic", metallic),
+    # which are, in this order, in unions with the members of lobes
+    members = {"diffuse": _fraction("base_color", _color("base_color", base_color), (3,)),
+               "exponent": _fraction("metallic", metallic),
                "roughness": _fraction("roughness", roughness)}
     if dielectric is not None:
         if getattr(dielectric, "dtype", None) != dtype["dielectric"]:

@@ -18,37 +18,48 @@ Normalization = _core.enumeration("Normalization", "lmp_probe_normalization")
 Engine = _core.enumeration("Engine", "lmp_probe_engine")
 
 
-def _probe(sh: ArrayLike, least: int = 1) -> tuple[int, NDArray, Any]:
-    """Bands, coefficients and their pointer of one probe."""
+def _probes(sh: ArrayLike, least: int = 1) -> tuple[int, NDArray]:
+    """Bands and coefficients of probes (…, 3, n²)."""
     n, c = _arrays.coefficients("sh", sh, (3,))
-    if c.ndim != 2:
-        raise ValueError(f"sh must be one probe, of the shape (3, n²), not {c.shape}")
     if n < least:
         raise ValueError(f"sh must have at least {least} bands, not {n}")
-    c = np.ascontiguousarray(c)
-    return n, c, ffi.from_buffer("float[]", c)
+    return n, c
 
 
 def irradiance(sh: ArrayLike, normals: ArrayLike, *,
                out: NDArray | None = None) -> NDArray[np.float32]:
-    """Irradiance (…, 3), W·m⁻², that surfaces with unit `normals` (…, 3) receive from a probe
-    `sh` (3, n²): Σ A_l L_lm Y_lm(n) (Ramamoorthi and Hanrahan 2001). It may ring below 0."""
-    n, c, where = _probe(sh)
+    """Irradiance (…, 3), W·m⁻², that surfaces with unit `normals` (…, 3) receive from probes `sh`
+    (…, 3, n²): Σ A_l L_lm Y_lm(n) (Ramamoorthi and Hanrahan 2001). It may ring below 0. Many
+    normals at one probe are the faster case."""
+    n, c = _probes(sh)
     ways = _arrays.directions("normals", normals)
+    if c.ndim > 2:
+        def call(sh: Any, normal: Any, rgb: Any) -> None:
+            rgb[0] = lib.lmp_probe_irradiance(n, sh, normal[0])
+
+        return _arrays.each(out, (3,), call, ("sh", c, 2, "float *"),
+                            ("normals", ways, 1, "lmp_vec3 *"), ctype="lmp_rgb *")
+    c = np.ascontiguousarray(c)
     shape = ways.shape[:-1]
     result = _arrays.Result(out, shape + (3,), [ways, c])
     keep: list = []
-    lib.lmp_probe_irradiance_n(n, where, _arrays.vec3_array(ways, shape, keep), ways.size // 3,
+    lib.lmp_probe_irradiance_n(n, ffi.from_buffer("float[]", c),
+                               _arrays.vec3_array(ways, shape, keep), ways.size // 3,
                                result.rgb())
     return result.finish()
 
 
 def make_constants(sh: ArrayLike, scale: float = 1) -> dict[str, NDArray[np.float32]]:
-    """The polynomial of a probe's irradiance times `scale`, by three bands, that engines upload:
-    linear (3, 4), quadratic (3, 4) and last (4,) (Sloan 2008, appendix A10)."""
-    n, _, where = _probe(sh, 3)
+    """The polynomial of the irradiance of one probe `sh` (3, n²) times `scale`, by three bands,
+    that engines upload: linear (3, 4), quadratic (3, 4) and last (4,) (Sloan 2008, appendix
+    A10)."""
+    n, c = _probes(sh, 3)
+    if c.ndim != 2:
+        raise ValueError(f"sh must be one probe, of the shape (3, n²), not {c.shape}")
+    c = np.ascontiguousarray(c)
     found = ffi.new("lmp_probe_constants *")
-    lib.lmp_probe_make_constants(n, _core.number("scale", scale), where, found)
+    lib.lmp_probe_make_constants(n, _core.number("scale", scale), ffi.from_buffer("float[]", c),
+                                 found)
     members = np.frombuffer(ffi.buffer(found), _core.dtype_of("lmp_probe_constants"))[0]
     return {name: members[name].copy() for name in members.dtype.names}
 
@@ -208,15 +219,17 @@ def engine_format(engine: str | int) -> Format:
                   found.interleaved, tuple(found.factors))
 
 
-def export(format: Format, sh: ArrayLike) -> NDArray[np.float32]:
-    """The 27 values of a probe (3, n²) of at least 3 bands in the format of an engine."""
-    n, _, where = _probe(sh, 3)
+def export(format: Format | str, sh: ArrayLike) -> NDArray[np.float32]:
+    """Values (…, 27) of probes (…, 3, n²) of at least 3 bands in a format, or in that of an engine
+    by its name."""
+    n, c = _probes(sh, 3)
+    if isinstance(format, str):
+        format = engine_format(format)
     if len(_checked("format", format, Format).factors) != 9:
         raise ValueError("factors must be 9")
     name = ffi.new("char[]", format.name.encode())
     described = ffi.new("lmp_probe_format *",
                         (name, format.convention._c()[0], format.unit, format.interleaved,
                          format.factors))
-    values = np.empty(27, np.float32)
-    lib.lmp_probe_export(n, described, where, ffi.from_buffer("float[]", values))
-    return values
+    return _arrays.each(None, (27,), lambda c, out: lib.lmp_probe_export(n, described, c, out),
+                        ("sh", c, 2, "float *"))

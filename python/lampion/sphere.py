@@ -139,7 +139,7 @@ def project_gradient(bands: int, center: ArrayLike, radius: ArrayLike,
 def _list_of(center: ArrayLike, radius: ArrayLike, radiance: ArrayLike) -> tuple:
     """The arrays of a list of spheres, and their number."""
     centers, radii = _arrays.points("center", center), _radii(radius)
-    colors = _arrays.finite("radiance", _arrays.numbers("radiance", radiance, (3,)))
+    colors = _arrays.colors("radiance", radiance)
     _arrays.finite("center", centers)
     shape = _arrays.common_shape(("center", centers, 1), ("radius", radii, 0),
                                  ("radiance", colors, 1))
@@ -176,12 +176,15 @@ def project_all(bands: int, center: ArrayLike, radius: ArrayLike, point: ArrayLi
 
 def visibilities(visibility: ArrayLike | None, lights: int, shape: tuple[int, ...],
                  keep: list) -> Any:
-    """Visibility (lights, *shape) as C takes it."""
+    """Visibility, broadcast to (lights, *shape), as C takes it."""
     if visibility is None:
         return ffi.NULL
-    array = np.ascontiguousarray(_arrays.numbers("visibility", visibility))
-    if array.shape != (lights,) + shape:
-        raise ValueError(f"visibility must have the shape {(lights,) + shape}, not {array.shape}")
+    array = _arrays.numbers("visibility", visibility)
+    try:
+        array = np.ascontiguousarray(np.broadcast_to(array, (lights,) + shape))
+    except ValueError:
+        raise ValueError(f"visibility must broadcast to {(lights,) + shape}, "
+                         f"not be of the shape {array.shape}") from None
     keep.append(array)
     return ffi.cast("float *", _arrays.address(array))
 

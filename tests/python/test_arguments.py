@@ -190,8 +190,8 @@ class Messages(Case):
                 self.refused(words, function, *arguments)
 
     def test_visibility(self):
-        self.refused("visibility must have the shape (1, 2)", light.project, 3, lights, at,
-                     visibility=[1, 1])
+        self.refused("visibility must broadcast to (1, 2)", light.project, 3, lights, at,
+                     visibility=[1, 1, 1])
 
     def test_what_the_library_refuses(self):
         self.refused("", grid.update, square, kind=Error)

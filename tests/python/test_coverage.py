@@ -17,7 +17,6 @@ excluded = {
     "lmp_sphere_project": batch,
     "lmp_light_project": batch,
     "lmp_light_project_channels": "out= has any strides",
-    "lmp_probe_irradiance": batch,
     "lmp_shade": batch,
     "lmp_shade_environment": batch,
 }
@@ -65,9 +64,9 @@ class Coverage(unittest.TestCase):
 
     def test_constants_are_those_of_the_headers(self):
         text = "".join(path.read_text() for path in Path(os.environ["LAMPION_HEADERS"]).glob("*.h"))
-        plain = re.findall(r"^#define LMP_(\w+) +(\d+|\d[\d.]*e?-?\d*)(f?)u?\b(?![\w.*]).*$", text, re.M)
+        plain = re.findall(r"^#define LMP_(\w+) +(\d[\d.]*(?:e-?\d+)?)[fu]?$", text, re.M)
         self.assertGreater(len(plain), 30)
-        for name, digits, _ in plain:
+        for name, digits in plain:
             self.assertEqual(getattr(lampion.constants, name), float(digits), name)
 
     def test_versions_agree(self):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """lampion.sphere, light, lobe and probe against quadrature of caps and closed forms."""
+import io
 import math
 
 import numpy as np
@@ -66,6 +67,7 @@ class Spheres(Case):
 
 class Lights(Case):
     def test_spheres_as_lights(self):
+        self.same(light.sphere(center, radius, 2)["radiance"], np.full(3, 2, np.float32))
         self.near(light.project(5, one, points), expected[:, None] * color[:, None], 4e-6)
         zonal, axis = light.project_zonal(5, one, points)
         self.near(sh.expand_zonal(zonal, axis), expected, 1e-6)
@@ -81,6 +83,8 @@ class Lights(Case):
         visibility[1] = np.arange(6) / 5
         self.near(light.project(5, lights, points, visibility=visibility),
                   expected[:, None] * color[:, None] * visibility[1][:, None, None], 4e-6)
+        self.near(light.project(5, lights, points, visibility=0.25),
+                  expected[:, None] * color[:, None] / 2, 4e-6)
 
     def test_every_kind(self):
         up = [0, 1, 0]
@@ -134,7 +138,13 @@ class Lights(Case):
         joined = light.join(grid, one, light.point([0, 1, 0], color))
         self.assertEqual(joined["kind"].tolist(), [0] * 7 + [1])
         self.near(joined["position"][6], center, 1e-6)
-        self.near(joined["intensity"][7], color, 0)
+        self.near(joined["radiance"][7], color, 0)
+        # NumPy's own functions know the type, too
+        self.same(np.concatenate([grid.ravel(), joined[6:]]).view("u1"), joined.view("u1"))
+        with io.BytesIO() as file:
+            np.save(file, joined)
+            file.seek(0)
+            self.same(light.project(3, np.load(file), points), light.project(3, joined, points))
         self.same(light.project(3, joined, points), light.project(3, [*joined], points))
 
     def test_irradiance(self):
@@ -209,6 +219,8 @@ class Probes(Case):
                                                        * harmonics(3, nodes)[:, None])
                                             .reshape(len(nodes), -1)).reshape(3, 9)).T
         self.near(probe.irradiance(self.coefficients, normals), exact, 1e-5)
+        many = self.coefficients * np.arange(6)[:, None, None]
+        self.near(probe.irradiance(many, normals), exact * np.arange(6)[:, None], 1e-5)
         c = probe.make_constants(self.coefficients)
         x, y, z = normals.T
         one = np.ones(6)
@@ -246,7 +258,7 @@ class Probes(Case):
         basis = harmonics(4, ways) * (-1.0) ** np.abs(order)
         self.near(basis @ converted / math.sqrt(4 * math.pi),
                   harmonics(4, world) @ ours, 1e-5)
-        # half a turn around z is the other sign, so that the convention found may be named otherwise
+        # half a turn around z is the other sign: what is found may be named otherwise
         found = probe.recognize(1e-4, ours, converted)
         self.near(probe.convert(probe.Convention(), found, ours), converted, 1e-5)
         self.assertIsNone(probe.recognize(1e-4, ours, np.arange(16)))
@@ -260,6 +272,7 @@ class Probes(Case):
         converted = probe.convert(probe.Convention(), form.convention, self.coefficients)
         scaled = converted * np.float32(form.factors)
         self.near(values, scaled.T.ravel() if form.interleaved else scaled.ravel(), 1e-6)
+        self.same(probe.export("unreal", [self.coefficients] * 2), np.stack([values, values]))
 
 
 class Cpu(Case):

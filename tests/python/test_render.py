@@ -20,12 +20,13 @@ def written(image, compression):
     channels = {"A": np.ones((height, width), "f4"), "B": image[..., 2], "G": image[..., 1],
                 "R": image[..., 0]}
     box = struct.pack("<4i", -2, 5, width - 3, height + 4)
-    names = b"".join(name.encode() + b"\0" + struct.pack("<IIII", 2, 0, 1, 1) for name in channels)
+    names = b"".join(name.encode() + b"\0" + struct.pack("<IIII", 2, 0, 1, 1)
+                     for name in channels)
     head = struct.pack("<II", 20000630, 2)
     for name, kind, value in (("channels", "chlist", names + b"\0"),
                               ("compression", "compression", bytes([compression])),
                               ("dataWindow", "box2i", box), ("lineOrder", "lineOrder", b"\0")):
-        head += name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(value)) + value
+        head += f"{name}\0{kind}\0".encode() + struct.pack("<I", len(value)) + value
     head += b"\0"
     rows = 16 if compression else 1
     chunks = []
