@@ -42,13 +42,11 @@ def numbers(name: str, value: Any, core: tuple[int | None, ...] = (),
             array = array.astype(dtype)
     elif not array.flags.aligned:
         array = array.copy()
-    ends = len(core)
-    if ends:
-        shape = array.shape
-        if len(shape) < ends or any(
-                want is not None and want != have for want, have in zip(core, shape[-ends:])):
-            wanted = ", ".join("n" if size is None else str(size) for size in core)
-            raise ValueError(f"{name} must have the shape (…, {wanted}), not {shape}")
+    ends = array.shape[array.ndim - len(core):] if array.ndim >= len(core) else ()
+    if ends != core and (len(ends) != len(core) or any(
+            want is not None and want != have for want, have in zip(core, ends))):
+        wanted = ", ".join("n" if size is None else str(size) for size in core)
+        raise ValueError(f"{name} must have the shape (…, {wanted}), not {array.shape}")
     return array
 
 
@@ -136,9 +134,11 @@ def per_band(name: str, value: Any, most: int = constants.BANDS_MAX) -> tuple[in
 # --- many elements at once ----------------------------------------------------------------------
 
 
-def address(array: np.ndarray) -> int:
-    """Where an array begins."""
-    return array.__array_interface__["data"][0]
+def pointer(array: np.ndarray, ctype: Any = _float_pointer) -> Any:
+    """To the first element of an array, which must live as long as it is used."""
+    if array.flags.c_contiguous:
+        return _cast(ctype, ffi.from_buffer(array))
+    return _cast(ctype, array.__array_interface__["data"][0])  # which takes ten times as long
 
 
 def common_shape(*arrays: tuple[str, np.ndarray, int]) -> tuple[int, ...]:
@@ -173,18 +173,17 @@ def _elements(array: np.ndarray, core: int, shape: tuple[int, ...]) -> tuple[np.
 def vec3_array(array: np.ndarray, shape: tuple[int, ...], keep: list) -> Any:
     """An lmp_vec3_array of vectors (…, 3) broadcast to `shape`; `keep` receives what must live."""
     array, stride = _elements(array, 1, shape)
-    step = array.strides[-1]
-    start = address(array)
+    step = array.strides[-1] // array.itemsize
+    x = pointer(array)
     keep.append(array)
-    return ffi.new(_vec3_array, (_cast(_float_pointer, start), _cast(_float_pointer, start + step),
-                                 _cast(_float_pointer, start + 2 * step), stride))[0]
+    return ffi.new(_vec3_array, (x, x + step, x + 2 * step, stride))[0]
 
 
 def float_array(array: np.ndarray, shape: tuple[int, ...], keep: list) -> Any:
     """An lmp_float_array of numbers broadcast to `shape`."""
     array, stride = _elements(array, 0, shape)
     keep.append(array)
-    return ffi.new(_float_array, (_cast(_float_pointer, address(array)), stride))[0]
+    return ffi.new(_float_array, (pointer(array), stride))[0]
 
 
 class Result:
@@ -217,7 +216,7 @@ class Result:
         """To contiguous memory for all elements."""
         if not self.target.flags.c_contiguous:
             self.target = np.empty(self.shape, self.target.dtype)
-        return _cast(ctype, address(self.target))
+        return pointer(self.target, ctype)
 
     def _rows(self, core: int) -> np.ndarray:
         """The target as (count, values), which takes another target if that would be a copy."""
@@ -244,7 +243,7 @@ class Result:
         else:
             self.target = np.empty(self.shape, _float32)
             rows, layout, stride = self.target.reshape(count, values), 0, 0
-        return ffi.new(_sh_array, (_cast(_float_pointer, address(rows)), stride, layout))[0]
+        return ffi.new(_sh_array, (pointer(rows), stride, layout))[0]
 
     def rgb(self) -> Any:
         """An lmp_rgb_array of colors (…, 3)."""
@@ -253,7 +252,7 @@ class Result:
         if rows.size and (inner != 4 or stride < 12):
             self.target = np.empty(self.shape, _float32)
             rows, stride = self.target.reshape(-1, 3), 0
-        return ffi.new(_rgb_array, (_cast(_float_pointer, address(rows)), stride))[0]
+        return ffi.new(_rgb_array, (pointer(rows), stride))[0]
 
     def finish(self) -> Any:
         """The result; a NumPy scalar if it has no axes, as NumPy's functions return it."""
@@ -279,7 +278,7 @@ def _pointers(array: np.ndarray, core: int, shape: tuple[int, ...], ctype: str) 
     for axis, (length, stride) in enumerate(zip(shape, spread.strides)):
         steps = np.arange(length) * stride
         offsets += steps.reshape((-1,) + (1,) * (len(shape) - axis - 1))
-    start = address(array)
+    start = int(_cast("uintptr_t", pointer(array)))
     return [_cast(ctype, start + offset) for offset in offsets.ravel().tolist()]
 
 

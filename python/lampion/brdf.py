@@ -107,7 +107,7 @@ def create_sgd(sgd: NDArray) -> Brdf:
         raise TypeError("sgd must be what find_sgd returns")
     parameters = np.array(sgd)
     return _create(lib.lmp_brdf_create_sgd,
-                   ffi.cast("lmp_sgd *", _arrays.address(parameters)))
+                   _arrays.pointer(parameters, "lmp_sgd *"))
 
 
 def sgd_name(index: int) -> str | None:

@@ -196,7 +196,7 @@ def as_lights(lights: Any, *, areas: bool = True) -> NDArray:
 
 def pointer(lights: NDArray) -> Any:
     """Lights of `as_lights`, as C takes them."""
-    return ffi.cast("lmp_light *", _arrays.address(lights))
+    return _arrays.pointer(lights, "lmp_light *")
 
 
 def _one(light: Any, areas: bool = True) -> NDArray:
@@ -253,7 +253,7 @@ def _sum(function: Any, bands: int, lights: Any, point: ArrayLike, visibility: A
          result: _arrays.Result, listed: NDArray, places: NDArray) -> NDArray:
     keep: list = []
     shape = places.shape[:-1]
-    function(scratch(keep), bands, pointer(listed), listed.size,
+    function(scratch(), bands, pointer(listed), listed.size,
              visibilities(visibility, listed.size, shape, keep),
              _arrays.vec3_array(places, shape, keep), math.prod(shape), result.sh(2))
     return result.finish()

@@ -332,7 +332,7 @@ def project_latlong(bands: int, image: ArrayLike, *, azimuth: float = 0, mirrore
                          f"not {array.shape}")
     planes = array[..., np.newaxis] if array.ndim == 2 else array
     latlong = ffi.new("lmp_latlong *")
-    latlong.pixels = ffi.cast("void *", _arrays.address(planes))
+    latlong.pixels = _arrays.pointer(planes, "void *")
     latlong.height, latlong.width = planes.shape[:2]
     _fill_texels(latlong, planes)
     latlong.azimuth = _core.number("azimuth", azimuth)
@@ -356,7 +356,7 @@ def project_cubemap(bands: int, faces: ArrayLike, *,
     planes = array[..., np.newaxis] if array.ndim == 3 else array
     cubemap = ffi.new("lmp_cubemap *")
     for i, face in enumerate(planes):
-        cubemap.faces[i] = ffi.cast("void *", _arrays.address(face))
+        cubemap.faces[i] = _arrays.pointer(face, "void *")
     cubemap.size = planes.shape[1]
     _fill_texels(cubemap, planes[0])
     cubemap.left_handed = bool(left_handed)
@@ -403,7 +403,7 @@ def pack_half(values: ArrayLike) -> NDArray[np.float16]:
     array = np.ascontiguousarray(_arrays.numbers("values", values))
     halves = np.empty(array.shape, np.float16)
     lib.lmp_sh_pack_half_n(ffi.from_buffer("float[]", array), array.size,
-                           ffi.cast("uint16_t *", _arrays.address(halves)))
+                           _arrays.pointer(halves, "uint16_t *"))
     return halves
 
 
@@ -413,7 +413,7 @@ def unpack_half(halves: ArrayLike) -> NDArray[np.float32]:
     if array.dtype not in (np.float16, np.uint16):
         raise TypeError(f"halves must be of float16 or uint16, not {array.dtype}")
     values = np.empty(array.shape, np.float32)
-    lib.lmp_sh_unpack_half_n(ffi.cast("uint16_t *", _arrays.address(array)), array.size,
+    lib.lmp_sh_unpack_half_n(_arrays.pointer(array, "uint16_t *"), array.size,
                              ffi.from_buffer("float[]", values))
     return values
 

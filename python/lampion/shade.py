@@ -60,7 +60,7 @@ class Surfaces:
             materials = np.ascontiguousarray(np.broadcast_to(materials, self.shape))
             self.c.material_stride = dtype.itemsize
         self.keep.append(materials)
-        self.c.material = ffi.cast("lmp_material *", _arrays.address(materials))
+        self.c.material = _arrays.pointer(materials, "lmp_material *")
 
 
 def _check_lobe(used: Any, surfaces: Surfaces) -> None:

@@ -8,6 +8,7 @@ choice; radiance is in W·sr⁻¹·m⁻².
 from __future__ import annotations
 
 import math
+import threading
 from typing import Any
 
 import numpy as np
@@ -186,16 +187,23 @@ def visibilities(visibility: ArrayLike | None, lights: int, shape: tuple[int, ..
         raise ValueError(f"visibility must broadcast to {(lights,) + shape}, "
                          f"not be of the shape {array.shape}") from None
     keep.append(array)
-    return ffi.cast("float *", _arrays.address(array))
+    return _arrays.pointer(array, "float *")
 
 
-def scratch(keep: list) -> Any:
-    """Memory that makes sums of many bands faster; it is of one call."""
-    size, alignment = _core.constants.SCRATCH_SIZE, _core.constants.SCRATCH_ALIGNMENT
-    memory = np.empty(size + alignment, np.uint8)
-    keep.append(memory)
-    start = -_arrays.address(memory) % alignment + _arrays.address(memory)
-    return ffi.new("lmp_scratch *", (ffi.cast("void *", start), size))
+_of_thread = threading.local()
+
+
+def scratch() -> Any:
+    """Memory that makes sums of many bands faster, of each thread its own."""
+    try:
+        return _of_thread.scratch
+    except AttributeError:
+        size, alignment = _core.constants.SCRATCH_SIZE, _core.constants.SCRATCH_ALIGNMENT
+        _of_thread.memory = np.empty(size + alignment, np.uint8)
+        start = int(ffi.cast("uintptr_t", _arrays.pointer(_of_thread.memory)))
+        _of_thread.scratch = ffi.new(
+            "lmp_scratch *", (ffi.cast("void *", start + -start % alignment), size))
+        return _of_thread.scratch
 
 
 def sum(bands: int, center: ArrayLike, radius: ArrayLike, radiance: ArrayLike, point: ArrayLike, *,
@@ -222,7 +230,7 @@ def sum(bands: int, center: ArrayLike, radius: ArrayLike, radiance: ArrayLike, p
     shape = places.shape[:-1]
     result = _arrays.Result(out, shape + (3, n * n), [centers, radii, colors, places])
     keep: list = []
-    lib.lmp_sphere_sum_n(scratch(keep), n, _spheres(centers, radii, colors, spheres, keep),
+    lib.lmp_sphere_sum_n(scratch(), n, _spheres(centers, radii, colors, spheres, keep),
                          spheres[0], visibilities(visibility, spheres[0], shape, keep),
                          _arrays.vec3_array(places, shape, keep), math.prod(shape), result.sh(2))
     return result.finish()
@@ -244,7 +252,7 @@ def sum_gradient(bands: int, center: ArrayLike, radius: ArrayLike, radiance: Arr
     result = _arrays.Result(None, shape + (3, n * n), [])
     gradient = _arrays.Result(None, shape + (3, 3, n * n), [])
     keep: list = []
-    lib.lmp_sphere_sum_gradient_n(scratch(keep), n,
+    lib.lmp_sphere_sum_gradient_n(scratch(), n,
                                   _spheres(centers, radii, colors, spheres, keep), spheres[0],
                                   _arrays.vec3_array(places, shape, keep), math.prod(shape),
                                   result.sh(2), gradient.sh(3))

@@ -87,9 +87,9 @@ class Transfer(_core.Owner):
         def indices(name: str, value: ArrayLike, rows: int, most: int) -> tuple[Any, int]:
             array = _sources(name, value, rows, most)
             keep.append(array)
-            return ffi.cast("uint32_t *", _arrays.address(array)), array.shape[1]
+            return _arrays.pointer(array, "uint32_t *"), array.shape[1]
 
-        desc.surfels = ffi.cast("lmp_transfer_surfel *", _arrays.address(surfels))
+        desc.surfels = _arrays.pointer(surfels, "lmp_transfer_surfel *")
         desc.surfel_count, desc.sky_count = count, sources - count
         desc.hits, desc.ray_count = indices("hits", hits, count, sources)
         if links is not None:
@@ -99,7 +99,7 @@ class Transfer(_core.Owner):
         if probe_hits is not None:
             ways = np.ascontiguousarray(_arrays.directions("probe_directions", probe_directions))
             keep.append(ways)
-            desc.probe_directions = ffi.cast("lmp_vec3 *", _arrays.address(ways))
+            desc.probe_directions = _arrays.pointer(ways, "lmp_vec3 *")
             desc.probe_count = len(probe_hits)  # type: ignore[arg-type]
             desc.probe_hits, rays = indices("probe_hits", probe_hits, desc.probe_count, sources)
             if ways.shape != (rays, 3):
@@ -122,7 +122,7 @@ class Transfer(_core.Owner):
         if array.shape not in ((3,), (count, 3)):
             raise ValueError(f"{name} must have the shape ({count}, 3), not {array.shape}")
         keep.append(np.ascontiguousarray(np.broadcast_to(array, (count, 3))))
-        return ffi.cast("lmp_rgb *", _arrays.address(keep[-1]))
+        return _arrays.pointer(keep[-1], "lmp_rgb *")
 
     def update(self, direct: ArrayLike | None = None, *, emission: ArrayLike | None = None,
                sky: ArrayLike | None = None, iterations: int = 0, remainder: float = 0,
