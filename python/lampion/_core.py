@@ -132,7 +132,7 @@ def record(struct: Any) -> SimpleNamespace:
     return SimpleNamespace(**members)
 
 
-def vector_of(struct: Any) -> tuple[float, ...]:
+def vector_of(struct: Any) -> Any:
     """The components of an lmp_vec3, lmp_rgb or lmp_quat."""
     return tuple(getattr(struct, name) for name, _ in ffi.typeof(struct).fields)
 

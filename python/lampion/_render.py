@@ -42,6 +42,8 @@ def render(scene: str | os.PathLike, *, size: tuple[int, int] = (640, 360),
     Error
         What the program says.
     """
+    if np.shape(size) != (2,):
+        raise ValueError(f"size must be width and height, not {size!r:.60}")
     width, height = (integer("size", number, 1, 16384) for number in size)
     program = os.environ.get("LAMPION_PROGRAM") or shutil.which("lampion")
     if not program:

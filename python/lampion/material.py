@@ -40,7 +40,7 @@ class Material:
         """() of one material, else the shape of the array."""
         return self._data.shape
 
-    def _over(self, name: str, members: dict[str, tuple[ArrayLike, int]], keep: tuple) -> Material:
+    def _over(self, name: str, members: dict[str, tuple[NDArray, int]], keep: tuple) -> Material:
         """A copy whose structure `name` has other members."""
         arrays = {key: value for key, (value, _) in members.items()}
         shape = _arrays.common_shape(("the material", self._data, 0),

@@ -149,7 +149,7 @@ class Convention:
 
     def _c(self) -> Any:
         axes = [_core.integer("axes", axis, -3, 3) for axis in self.axes]
-        if sorted(map(abs, axes)) != [1, 2, 3]:
+        if sorted(abs(axis) for axis in axes) != [1, 2, 3]:
             raise ValueError(f"axes must be 1, 2, 3 in some order and sign, not {self.axes}")
         return ffi.new("lmp_probe_convention *",
                        (_core.choice("sign", Sign, self.sign),
@@ -164,9 +164,10 @@ def _checked(name: str, value: Any, kind: type) -> Any:
 
 
 def _convention(struct: Any) -> Convention:
-    axes = tuple(struct.axes) if any(struct.axes) else (1, 2, 3)
+    axes = struct.axes if any(struct.axes) else (1, 2, 3)
     return Convention(Sign(struct.sign).name.lower(),
-                      Normalization(struct.normalization).name.lower(), axes)
+                      Normalization(struct.normalization).name.lower(),
+                      (axes[0], axes[1], axes[2]))
 
 
 def convert(from_: Convention, to: Convention, sh: ArrayLike, *,

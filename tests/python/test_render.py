@@ -89,7 +89,8 @@ class Render(Case):
             self.refused("zero byte", lampion.render, "builtin:ball", method="zonal\0")
             self.assertEqual(os.listdir(folder), [])
         self.refused("-nowhere.gltf: ", lampion.render, "-nowhere.gltf", kind=lampion.Error)
-        self.refused("size", lampion.render, "builtin:ball", size=(0, 5))
+        for size in ((0, 5), 5, (1, 2, 3), None):
+            self.refused("size", lampion.render, "builtin:ball", size=size)
         self.refused("size", lampion.render, "builtin:ball", size=("4 --help", 5))
 
     def test_without_the_program(self):
