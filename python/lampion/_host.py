@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Callable
 
-from ._core import check, ffi, integer
+from ._core import check, ffi, integer, lib
 
 
 class Host:
@@ -40,10 +40,19 @@ class Host:
             self._progress(done)
 
     def _parallel(self, count: int, task: Any, data: Any, user: Any) -> None:
-        # Leaving the pool waits for every task, also after an exception.
-        with ThreadPoolExecutor(min(self.threads, max(count, 1))) as pool:
-            for _ in pool.map(lambda index: task(index, data), range(count)):
-                pass
+        indices = iter(range(count))  # which the threads share
+
+        def work() -> None:
+            for index in indices:
+                task(index, data)
+
+        # Leaving the pool waits for every task, which after Ctrl+C ask whether to go on.
+        with ThreadPoolExecutor(self.threads) as pool:
+            try:
+                for running in [pool.submit(work) for _ in range(self.threads)]:
+                    running.result()
+            except BaseException as error:
+                self._failure = self._failure or error
 
     def check(self, result: int, error: Any = None) -> None:
         """Raises what stopped the call, or what its result says."""
@@ -56,7 +65,12 @@ def created(ctype: str, create: Callable[[Any, Any], int], host: Host | None = N
     """The object that `create` makes, which gets an lmp_host and where the object goes."""
     host = host or Host()
     place = ffi.new(ctype + " **")
-    host.check(create(host.c, place))
+    try:
+        host.check(create(host.c, place))
+    except BaseException:
+        if place[0]:  # it was complete when `progress` raised
+            getattr(lib, ctype + "_destroy")(place[0])
+        raise
     return place[0]
 
 

@@ -6,8 +6,8 @@ import math
 import numpy as np
 
 from lampion import cpu, light, lobe, probe, sh, sphere
-from oracle import (Case, cap_of, cap_rule, harmonics, rotation_of, sphere_coefficients,
-                    sphere_rule, unit_vectors)
+from oracle import (Case, cap_of, cap_rule, harmonics, sphere_coefficients, sphere_rule,
+                    unit_vectors)
 
 center, radius, color = np.array([1.0, 2.0, 0.5]), 0.7, np.array([1.0, 2.0, 3.0])
 points = np.random.default_rng(1).normal(size=(6, 3)) - [0, 2, 0]

@@ -5,7 +5,7 @@ import weakref
 
 import numpy as np
 
-from lampion import brdf, field, light, material, preintegrated, shade, sh, transfer
+from lampion import brdf, field, light, material, preintegrated, shade, transfer
 from oracle import Case, cap_of, cap_rule, harmonics, sphere_rule, unit_vectors
 
 center, radius, color = np.array([0.5, 3.0, 0.5]), 0.7, np.array([1.0, 2.0, 3.0])

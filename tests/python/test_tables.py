@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """lampion.brdf and preintegrated against formulas and quadrature."""
 import math
+import os
+import signal
+import threading
 import weakref
 
 import numpy as np
@@ -129,8 +132,20 @@ class Tables(Case):
         def stop(done):
             raise KeyboardInterrupt
 
-        self.refused("", brdf.Table, brdf.create_phong(albedo, 5), 6, progress=stop, threads=2,
-                     kind=KeyboardInterrupt)
+        for threads in (1, 2):
+            self.refused("", brdf.Table, brdf.create_phong(albedo, 5), 6, progress=stop,
+                         threads=threads, kind=KeyboardInterrupt)
+
+    def test_control_c_ends_it_early(self):
+        source = brdf.create_ggx(0.5, 0.5, alpha_y=0.05)
+        for threads in (1, 2):
+            told = [0]
+            timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            self.refused("", brdf.Table, source, 60, views=200, azimuths=256, threads=threads,
+                         progress=told.append, kind=KeyboardInterrupt)
+            timer.join()
+            self.assertLess(told[-1], 0.1)  # the whole takes many minutes
 
 
 class Preintegrated(Case):
