@@ -44,7 +44,7 @@ void lmp_sh_eval(vec3 w, out float sh[LMP_SH_COUNT]) {
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         q = l == m ? diagonal                                                                      \
-                   : sqrt(float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m)) *              \
+                   : sqrt(float(l == m ? 1 : 4 * l * l - 1) / float(l == m ? 1 : l * l - m * m)) * \
                          (w.z * q1 - sqrt(float(l == m ? 0 : (l - 1) * (l - 1) - m * m) /          \
                                           float(l == 0 ? 1 : 4 * (l - 1) * (l - 1) - 1)) * q2);    \
         q2 = q1;                                                                                   \

@@ -57,7 +57,7 @@ lmp_ggx_node lmp_ggx_lookup(vec3 normal, vec3 view, float roughness) {
     vec2 size = vec2(LMP_GGX_VIEWS - 1, LMP_GGX_ROUGHNESSES - 1);
     vec2 unit = vec2(sqrt(node.cosine),
                      (rough - LMP_GGX_ROUGHNESS_MIN) / (1.0 - LMP_GGX_ROUGHNESS_MIN));
-    vec2 at = clamp(unit, 0.0, 1.0) * size;
+    vec2 at = clamp(unit, vec2(0.0), vec2(1.0)) * size;
     node.first = ivec2(min(at, size - 1.0));
     node.fraction = at - vec2(node.first);
     return node;

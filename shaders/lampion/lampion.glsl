@@ -105,19 +105,23 @@ struct lmp_material {
 #define LMP_MATRIX_TIMES(m, v) ((m) * (v))
 #define LMP_TIMES_MATRIX(v, m) ((v) * (m))
 
-/* Phong lobes of a surface: one, or those of GGX, of which LMP_GGX_LOBES_FEW are summed together,
- * then the others. A number of each of them is an element of a LMP_EACH, and a vector a column of a
+/* Phong lobes of a surface that are summed together: one, or those of GGX, LMP_GGX_LOBES_FEW of
+ * them, then the others. */
+#ifdef LAMPION_GGX_GLSL
+#define LMP_LOBES LMP_GGX_LOBES_FEW
+#else
+#define LMP_LOBES 1
+#endif
+/* A number of each of these lobes is an element of a LMP_EACH, and a vector a column of a
  * LMP_EACH_VEC3; LMP_LOBE is the element of lobe k, LMP_DOT(v, m) v times each column, LMP_SUM(m,
  * v) the weighted sum of the columns. */
 #ifdef LAMPION_GGX_GLSL
-#define LMP_LOBES       LMP_GGX_LOBES_FEW
 #define LMP_EACH        vec3
 #define LMP_EACH_VEC3   mat3
 #define LMP_LOBE(of, k) of[k]
 #define LMP_DOT(v, m)   LMP_TIMES_MATRIX(v, m)
 #define LMP_SUM(m, v)   LMP_MATRIX_TIMES(m, v)
 #else
-#define LMP_LOBES       1
 #define LMP_EACH        float
 #define LMP_EACH_VEC3   vec3
 #define LMP_LOBE(of, k) of
@@ -180,20 +184,12 @@ float lmp_window_weight(int l) {
 }
 #else
 float lmp_window_weight(int l) {
-#if LMP_WINDOW == LMP_WINDOW_NONE
-    return 1.0;
-#else
     float x = LMP_PI * float(l) / float(LMP_WINDOW_SIZE);
-    if (l == 0)
+    if (LMP_WINDOW == LMP_WINDOW_NONE || l == 0)
         return 1.0;
     if (float(l) >= float(LMP_WINDOW_SIZE))
         return 0.0;
-#if LMP_WINDOW == LMP_WINDOW_HANNING
-    return 0.5 + 0.5 * cos(x);
-#else
-    return sin(x) / x;
-#endif
-#endif
+    return LMP_WINDOW == LMP_WINDOW_HANNING ? 0.5 + 0.5 * cos(x) : sin(x) / x;
 }
 #endif
 
@@ -264,14 +260,20 @@ lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_metallic_roughness material, lmp
     float f90 = layer.f90 + (1.0 - layer.f90) * material.metallic;
     float held = max(layer.f0.r, max(layer.f0.g, layer.f0.b));
     float passed = 1.0 - held - (layer.f90 - held) * lmp_ggx_diffuse_f90(node);
+    mat3 axis, weight;
+    vec3 exponent;
     lmp_lobes lobes;
     lobes.diffuse = material.base_color * ((1.0 - material.metallic) * passed);
-    lmp_ggx_lobes(node, surface.normal, surface.view, 0, f0, f90, lobes.axis, lobes.weight,
-                  lobes.exponent);
+    lmp_ggx_lobes(node, surface.normal, surface.view, 0, f0, f90, axis, weight, exponent);
+    lobes.axis = axis;
+    lobes.weight = weight;
+    lobes.exponent = exponent;
     lobes.more = lmp_ggx_count(node) > LMP_LOBES;
     if (lobes.more)
-        lmp_ggx_lobes(node, surface.normal, surface.view, LMP_LOBES, f0, f90, lobes.more_axis,
-                      lobes.more_weight, lobes.more_exponent);
+        lmp_ggx_lobes(node, surface.normal, surface.view, LMP_LOBES, f0, f90, axis, weight, exponent);
+    lobes.more_axis = axis;
+    lobes.more_weight = weight;
+    lobes.more_exponent = exponent;
     return lobes;
 }
 
@@ -361,9 +363,8 @@ void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
 #define LMP_SHADE_LOBES(shade, shade_some)                                                         \
     vec3 shade(lmp_surface surface, lmp_lobes lobes) {                                             \
         vec3 sum = vec3(0.0);                                                                      \
-        do                                                                                         \
+        for (bool more = true; more; more = lmp_lobes_next(lobes))                                 \
             sum += shade_some(surface, lobes);                                                     \
-        while (lmp_lobes_next(lobes));                                                             \
         return max(sum, vec3(0.0));                                                                \
     }
 #define LMP_SHADE_MATERIAL(shade, type)                                                            \
@@ -382,14 +383,21 @@ void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
 int lmp_light_count() {
     return LMP_LIGHT_COUNT;
 }
-lmp_cap lmp_light_find_cap(int lmp_i, vec3 lmp_p) {
-    return lmp_cap_of_light(LMP_LIGHT_SPHERE(lmp_i), LMP_LIGHT_FIXED(lmp_i), lmp_p);
+vec4 lmp_light_sphere(int lmp_i) {
+    return LMP_LIGHT_SPHERE(lmp_i);
+}
+bool lmp_light_fixed(int lmp_i) {
+    return LMP_LIGHT_FIXED(lmp_i);
 }
 vec3 lmp_light_color(int lmp_i, vec3 lmp_p) {
     return LMP_LIGHT_COLOR(lmp_i, lmp_p);
 }
 bool lmp_light_lit(int lmp_i, vec3 lmp_p) {
     return LMP_LIGHT_LIT(lmp_i, lmp_p);
+}
+
+lmp_cap lmp_light_find_cap(int i, vec3 from) {
+    return lmp_cap_of_light(lmp_light_sphere(i), lmp_light_fixed(i), from);
 }
 
 /* Turns lambda_l of lobes into what multiplies the terms of lmp_cap_response. */

@@ -55,10 +55,11 @@ lmp_preintegrated_brdf lmp_preintegrated_brdf_view(int first, float cos_theta_o)
     m.slices = ambient + 3 * views;
     m.cosine = clamp(cos_theta_o, 0.0, 1.0);
     m.sine = sqrt(1.0 - m.cosine * m.cosine);
-    m.fraction =
-        lmp_preintegrated_brdf_lookup(view_remap, view_steps, views,
-                                      lmp_lookup_arc(1.0 - m.cosine) * (2.0 / LMP_PI), m.view);
-    ambient += 3 * m.view;
+    int view;
+    m.fraction = lmp_preintegrated_brdf_lookup(view_remap, view_steps, views,
+                                               lmp_lookup_arc(1.0 - m.cosine) * (2.0 / LMP_PI), view);
+    m.view = view;
+    ambient += 3 * view;
     for (int c = 0; c < 3; c++)
         m.ambient[c] =
             lmp_lookup_between(lmp_preintegrated_brdf_value(ambient + c),
@@ -77,7 +78,7 @@ vec3 lmp_preintegrated_brdf_slice(int slice, float s, float azimuth) {
     int i = lmp_lookup_base(row, rows - 3.0), j = lmp_lookup_base(column, columns - 3.0);
     vec2 corner = vec2(lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_CORNER_X),
                        lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_CORNER_Y)) +
-                  vec2(j, i) - 0.5;
+                  vec2(float(j), float(i)) - 0.5;
     vec3 across = lmp_spline(lmp_lookup_past(column, j)), down = lmp_spline(lmp_lookup_past(row, i));
     vec3 upper = mix(lmp_preintegrated_brdf_texel(corner + vec2(across.x, down.x)),
                      lmp_preintegrated_brdf_texel(corner + vec2(across.y, down.x)), across.z);

@@ -5,6 +5,7 @@ import { rm } from 'node:fs/promises';
 
 export async function openBrowser(profile) {
     const options = ['--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+        '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader',
         '--disable-dev-shm-usage', '--hide-scrollbars', '--force-color-profile=srgb', '--remote-debugging-pipe', `--user-data-dir=${profile}`];
     const browser = spawn('chromium', [...options, 'about:blank'], { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
     const waiting = new Map(), listeners = [], [, , , to, from] = browser.stdio;

@@ -89,8 +89,8 @@ inline float3 max(float3 a, float3 b) {
 inline float clamp(float x, float low, float high) {
     return min(max(x, low), high);
 }
-inline float2 clamp(float2 v, float low, float high) {
-    return float2 { clamp(v.x, low, high), clamp(v.y, low, high) };
+inline float2 clamp(float2 v, float2 low, float2 high) {
+    return float2 { clamp(v.x, low.x, high.x), clamp(v.y, low.y, high.y) };
 }
 template <typename T> T mix(T a, T b, float t) {
     return a + (b - a) * t;
