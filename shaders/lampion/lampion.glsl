@@ -184,12 +184,15 @@ float lmp_window_weight(int l) {
 }
 #else
 float lmp_window_weight(int l) {
-    float x = LMP_PI * float(l) / float(LMP_WINDOW_SIZE);
+    /* half the angle pi l / size, and its sine: languages promise few digits of their own */
+    float x = LMP_PI / 2.0 * float(l) / float(LMP_WINDOW_SIZE), x2 = x * x;
+    float series = 1.0 - x2 / 42.0 * (1.0 - x2 / 72.0 * (1.0 - x2 / 110.0));
+    float sine = x * (1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * series));
     if (LMP_WINDOW == LMP_WINDOW_NONE || l == 0)
         return 1.0;
     if (float(l) >= float(LMP_WINDOW_SIZE))
         return 0.0;
-    return LMP_WINDOW == LMP_WINDOW_HANNING ? 0.5 + 0.5 * cos(x) : sin(x) / x;
+    return LMP_WINDOW == LMP_WINDOW_HANNING ? 1.0 - sine * sine : sine * sqrt(1.0 - sine * sine) / x;
 }
 #endif
 

@@ -5,36 +5,47 @@ set -eu
 . tests/checks/common.sh
 export ASAN_OPTIONS=detect_leaks=0 # GL drivers leak at exit
 variants=$BUILD/variants sources=$SOURCE/tests/gpu/variants steps=$BUILD/tests/gpu/test_gpu_variants
-sizes="-DLIGHTS=5 -DSURFACES=64 -DTEXELS=5152 -DAREAS=4"
-"$steps" inputs "$WORK/inputs"
+sizes="-DLIGHTS=5 -DSURFACES=64 -DTEXELS=5152"
 
-# hlsl OUT BANDS OPTION…: compiles the user's shader with so many bands
+# hlsl FILE OUT OPTION…: compiles a user's shader
 hlsl() {
-    out=$1
-    sed "s/^#define LMP_BANDS .*/#define LMP_BANDS $2/" "$sources/shade.hlsl" >"$WORK/shade.hlsl"
+    file=$1 out=$2
     shift 2
     # shellcheck disable=SC2086
-    glslangValidator -D -e main -S comp -I"$variants/hlsl" $sizes "$@" "$WORK/shade.hlsl" -o "$WORK/$out" \
-        >"$WORK/log" 2>&1 || fail "HLSL: $(cat "$WORK/log")"
+    glslangValidator -D -V -e main -S comp -I"$variants/hlsl" $sizes "$@" "$file" -o "$WORK/$out" >"$WORK/log" 2>&1
+}
+# compare LOBES BANDS WINDOW AREAS
+compare() {
+    kind=-DPHONG
+    [ "$1" = phong ] || kind=-DGGX
+    hlsl "$sources/shade.hlsl" shade.spv $kind "-DLMP_BANDS=$2" "-DLMP_WINDOW=$3" "-DAREAS=$4" \
+        || fail "HLSL: $(cat "$WORK/log")"
+    "$steps" run "$WORK/shade.spv" "$@"
 }
 if command -v glslangValidator >/dev/null; then
-    hlsl shade.spv 6 -V
-    "$steps" run "$WORK/shade.spv"
-    hlsl whole.spv 6 -V -DWHOLE
-    hlsl many.spv 9 -V -DWHOLE
+    compare phong 1 2 0
+    compare ggx 6 1 0
+    compare phong 3 0 4
+    if [ "${LAMPION_LONG:-0}" = 1 ]; then
+        for bands in 2 5 8 10 20; do
+            for window in 0 1 2; do
+                compare phong "$bands" "$window" 4
+                [ "$bands" = 20 ] || compare ggx "$bands" "$window" 0
+            done
+        done
+    fi
     sed 's/lmp_make_surface(given/lmp_surface_of(given/' "$sources/shade.hlsl" >"$WORK/wrong.hlsl"
-    # shellcheck disable=SC2086
-    ! glslangValidator -D -V -e main -S comp -I"$variants/hlsl" $sizes "$WORK/wrong.hlsl" -o "$WORK/wrong.spv" \
-        >"$WORK/log" 2>&1 || fail "what is no HLSL goes unseen"
+    ! hlsl "$WORK/wrong.hlsl" wrong.spv -DLMP_BANDS=3 -DAREAS=0 || fail "what is no HLSL goes unseen"
 else
     echo "skipped: glslangValidator is not installed (package glslang-tools)"
 fi
 if command -v clang++ >/dev/null; then
     # shellcheck disable=SC2086
-    clang++ -std=c++14 -O1 -Wall -Wextra -Werror -Wno-unused-parameter $sizes -I"$variants/metal" -I"$sources" \
+    clang++ -std=c++14 -O1 -Wall -Wextra -Werror -Wno-unused-parameter $sizes -DAREAS=4 -I"$variants/metal" -I"$sources" \
         "$sources/metal.cpp" -o "$WORK/metal" || fail "the Metal variants do not compile"
-    "$WORK/metal" "$WORK/inputs" "$WORK/values"
-    "$steps" check "$WORK/values"
+    "$steps" inputs "$WORK" ggx 6 1 4
+    "$WORK/metal" "$WORK" "$WORK/values"
+    "$steps" check "$WORK/values" ggx 6 1 4
 else
     echo "skipped: clang++ is not installed (package clang)"
 fi

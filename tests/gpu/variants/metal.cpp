@@ -1,24 +1,36 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs shade.metal on the CPU: metal INPUT OUTPUT, both vectors of four floats. */
+/* Runs shade.metal on the CPU: metal FOLDER OUTPUT, with FOLDER/given and FOLDER/tables of variants.c. */
 #include "metal.h"
 
 #include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <vector>
 
 #include "shade.metal"
 
+template <typename T> static std::vector<T> read(const std::string &path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> bytes { std::istreambuf_iterator<char>(file), {} };
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(static_cast<void *>(values.data()), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
+
 int main(int count, char **argument) {
-    std::vector<float4> given(2 * LIGHTS + 3 * SURFACES + TEXELS + 11 * AREAS),
-        values(4 * SURFACES);
-    FILE *input = count == 3 ? std::fopen(argument[1], "rb") : nullptr;
-    if (!input || std::fread(given.data(), sizeof given[0], given.size(), input) != given.size())
+    if (count != 3)
         return 1;
-    std::fclose(input);
+    const std::string folder = argument[1];
+    const std::vector<float4> given = read<float4>(folder + "/given");
+    const std::vector<uint> words = read<uint>(folder + "/tables");
+    std::vector<float> values(static_cast<size_t>(SURFACES) * VALUES);
+    if (given.empty() || words.empty())
+        return 1;
     for (int i = 0; i < SURFACES; i++)
-        shade(given.data(), i, &values[4 * static_cast<size_t>(i)]);
-    FILE *output = std::fopen(argument[2], "wb");
-    if (!output ||
-        std::fwrite(values.data(), sizeof values[0], values.size(), output) != values.size())
-        return 1;
-    return std::fclose(output) == 0 ? 0 : 1;
+        shade(given.data(), words.data(), i, &values[static_cast<size_t>(VALUES) * static_cast<size_t>(i)]);
+    std::ofstream output(argument[2], std::ios::binary);
+    output.write(reinterpret_cast<const char *>(values.data()),
+                 static_cast<std::streamsize>(values.size() * sizeof values[0]));
+    return output ? 0 : 1;
 }

@@ -95,7 +95,7 @@ inline float2 clamp(float2 v, float2 low, float2 high) {
 template <typename T> T mix(T a, T b, float t) {
     return a + (b - a) * t;
 }
-template <typename T> T as_type(float x) {
+template <typename T, typename F> T as_type(F x) {
     T bits;
     std::memcpy(&bits, &x, sizeof bits);
     return bits;
