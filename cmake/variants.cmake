@@ -43,9 +43,10 @@ foreach(kind phong ggx)
   list(APPEND variants ${folder}/${kind}/no_areas.wgsl ${folder}/${kind}/spheres.wgsl)
   file(MAKE_DIRECTORY ${folder}/${kind})
   add_custom_command(OUTPUT ${variants}
-    COMMAND ${AWK} -v folder=${folder}/${kind} -f ${CMAKE_CURRENT_LIST_DIR}/wgsl.awk ${shaders}
+    COMMAND ${AWK} -v folder=${folder}/${kind} -f ${CMAKE_CURRENT_LIST_DIR}/glsl.awk
+            -f ${CMAKE_CURRENT_LIST_DIR}/wgsl.awk ${shaders}
     COMMAND ${CMAKE_COMMAND} -E copy ${own}/spheres.wgsl ${folder}/${kind}/spheres.wgsl
-    DEPENDS ${shaders} ${own}/spheres.wgsl ${CMAKE_CURRENT_LIST_DIR}/wgsl.awk
+    DEPENDS ${shaders} ${own}/spheres.wgsl ${CMAKE_CURRENT_LIST_DIR}/glsl.awk ${CMAKE_CURRENT_LIST_DIR}/wgsl.awk
     COMMENT "Writing the shaders in WGSL, lobes of ${kind}" VERBATIM)
   install(FILES ${variants} DESTINATION ${lampion_shader_folder}/wgsl/${kind} COMPONENT development)
   list(APPEND texts ${variants})
