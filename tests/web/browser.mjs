@@ -3,10 +3,11 @@
 import { spawn } from 'node:child_process';
 import { rm } from 'node:fs/promises';
 
-export async function openBrowser(profile) {
+// more: options of the browser beside these.
+export async function openBrowser(profile, more = []) {
     const options = ['--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
         '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader',
-        '--disable-dev-shm-usage', '--hide-scrollbars', '--force-color-profile=srgb', '--remote-debugging-pipe', `--user-data-dir=${profile}`];
+        '--disable-dev-shm-usage', '--hide-scrollbars', '--force-color-profile=srgb', '--remote-debugging-pipe', `--user-data-dir=${profile}`, ...more];
     const browser = spawn('chromium', [...options, 'about:blank'], { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
     const waiting = new Map(), listeners = [], [, , , to, from] = browser.stdio;
     let number = 0, rest = '';
