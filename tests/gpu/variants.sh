@@ -34,6 +34,16 @@ if command -v glslangValidator >/dev/null; then
             done
         done
     fi
+    # files for engines: Unity's, and Godot's, whose language is GLSL's in them
+    engines="$sizes -DPROBE=$((2 * 5 + 3 * 64 + 5152 + 11 * 4)) -I$SOURCE/examples/engines -V -S comp"
+    # shellcheck disable=SC2086
+    glslangValidator -D -e main $engines "$SOURCE/tests/gpu/engines/unity.hlsl" -o "$WORK/unity.spv" >"$WORK/log" \
+        || fail "Unity: $(cat "$WORK/log")"
+    # shellcheck disable=SC2086
+    glslangValidator $engines "$SOURCE/tests/gpu/engines/godot.comp" -o "$WORK/godot.spv" >"$WORK/log" \
+        || fail "Godot: $(cat "$WORK/log")"
+    "$steps" probes "$WORK/unity.spv"
+    "$steps" probes "$WORK/godot.spv"
     sed 's/lmp_make_surface(given/lmp_surface_of(given/' "$sources/shade.hlsl" >"$WORK/wrong.hlsl"
     ! hlsl "$WORK/wrong.hlsl" wrong.spv -DLMP_BANDS=3 -DAREAS=0 || fail "what is no HLSL goes unseen"
 else

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Prints the image that the page of docs/webgpu.md draws, by the library: 256 rows of as many pixels,
- * three bytes each. */
+/* Prints the image that the page of docs/webgpu.md draws, by the library: 256 rows of as many
+ * pixels, three bytes each. */
 #include <lampion/shade.h>
 
 #include <math.h>
@@ -29,7 +29,9 @@ int main(void) {
             lmp_rgb c = { 0, 0, 0 };
             if (z2 >= 0) {
                 const lmp_vec3 normal = { u, v, sqrtf(z2) };
-                const lmp_surface surface = { .position = normal, .normal = normal, .view = { 0, 0, 1 } };
+                const lmp_surface surface = { .position = normal,
+                                              .normal = normal,
+                                              .view = { 0, 0, 1 } };
                 c = lmp_shade(&settings, &clay, &surface, lights, 3);
             }
             printf("%c%c%c", level(c.r), level(c.g), level(c.b));

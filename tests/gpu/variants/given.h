@@ -31,7 +31,7 @@ typedef struct given {
     float surface[SURFACES][3][4]; /* position and roughness, normal, view */
     float texel[LMP_GGX_TEXELS][4];
     float area[AREAS][LMP_AREA_TEXELS][4];
-    float probe[7][4];
+    float probe[7][4], probe_of_two[3][4]; /* of three bands and of two */
 } given;
 
 /* The tables are words of 32 bits. A header says where the others begin: numbers and textures, of
@@ -135,6 +135,11 @@ static void fill_given(given *data, world *made) {
     lmp_probe_constants constants;
     lmp_probe_make_constants(3, 1, made->probe_sh, &constants);
     memcpy(data->probe, &constants, sizeof constants);
+    float two[3 * 9] = { 0 };
+    for (int k = 0; k < 3 * 9; k++)
+        two[k] = k % 9 < 4 ? made->probe_sh[k] : 0;
+    lmp_probe_make_constants(3, 1, two, &constants);
+    memcpy(data->probe_of_two, constants.linear, sizeof data->probe_of_two);
 }
 
 /* --- tables ----------------------------------------------------------------------------------- */

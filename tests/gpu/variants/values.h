@@ -181,6 +181,19 @@ static void compare_arrays(comparison *with, const configuration *of, const worl
     compare_array(with, "the basis", sh, LMP_SH_COUNT(bands));
 }
 
+/* Compares two colors of a surface, the irradiance of a probe's three bands and of the first two.
+ */
+static comparison compare_probes(const given *data, const world *from, int i, const float *values) {
+    comparison with = { .value = values };
+    const lmp_vec3 normal = vec3_of(data->surface[i][1]);
+    float two[3 * 4];
+    for (int k = 0; k < 3 * 4; k++)
+        two[k] = from->probe_sh[k / 4 * 9 + k % 4];
+    compare_rgb(&with, "a probe", lmp_probe_irradiance(3, from->probe_sh, normal), 5);
+    compare_rgb(&with, "a probe of two bands", lmp_probe_irradiance(2, two, normal), 5);
+    return with;
+}
+
 /* Compares all values of a surface. */
 static comparison compare_surface(const configuration *of, const given *data, const world *from,
                                   const tables *with_tables, int i, const float *values) {

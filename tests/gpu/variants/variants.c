@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* The variants of the shaders in other languages against the library, in steps of the scripts:
- *   inputs FOLDER LOBES BANDS WINDOW AREAS     writes what the shaders read, FOLDER/given and
- * FOLDER/tables run SPIRV LOBES BANDS WINDOW AREAS         runs the SPIR-V on the OpenGL device,
- * and compares check FILE LOBES BANDS WINDOW AREAS        compares what another has computed where
- * LOBES is phong or ggx, WINDOW a number of lmp_window, and AREAS the number of areas. */
+ *   inputs FOLDER OF      writes what the shaders read, FOLDER/given and FOLDER/tables
+ *   run SPIRV OF          runs the SPIR-V on the OpenGL device, and compares
+ *   check FILE OF         compares what another has computed
+ *   probes SPIRV          runs a file of tests/gpu/engines, and compares
+ *   check_probes FILE     compares what another has computed by one
+ * where OF is LOBES BANDS WINDOW AREAS: phong or ggx, a number of lmp_window, and the number of
+ * areas. */
 #include "app/render/gl/gpu.h"
 #include "tests/gpu/variants/values.h"
 
@@ -37,6 +40,17 @@ static int check(const configuration *of, const given *data, const world *from, 
     printf("%d bands, window %d, %s, %d areas: %.1e (%s)\n", of->bands, (int)of->window,
            of->ggx ? "GGX" : "Phong", of->areas, worst.worst, worst.what);
     return worst.worst <= (of->areas > 0 ? 5e-5 : 1e-5) ? 0 : 1;
+}
+
+static int check_probes(const given *data, const world *from, const float *values) {
+    double worst = 0;
+    for (int i = 0; i < SURFACES; i++) {
+        const comparison found = compare_probes(data, from, i, values + 6 * (ptrdiff_t)i);
+        if (!(found.worst <= worst))
+            worst = found.worst;
+    }
+    printf("probes: %.1e\n", worst);
+    return worst <= 1e-6 ? 0 : 1;
 }
 
 /* Runs the SPIR-V; returns false if the device does not accept it. */
@@ -79,31 +93,46 @@ static bool run(const char *path, const given *data, const tables *read, float *
     return true;
 }
 
+/* Takes the values from a file, or from what a device computes by SPIR-V; returns false if it takes
+ * none. */
+static bool take(bool runs, const char *path, const given *data, const tables *read, float *values,
+                 size_t size) {
+    if (!runs) {
+        read_file(path, values, size);
+        return true;
+    }
+    if (run(path, data, read, values, size))
+        return true;
+    puts("skipped: the OpenGL device takes no SPIR-V");
+    return false;
+}
+
 int main(int count, char **argument) {
     static given data;
     static world from;
-    if (count != 7)
+    if (count != 3 && count != 7)
         return 2;
-    const configuration of = { .ggx = strcmp(argument[3], "ggx") == 0,
+    const char *step = argument[1], *path = argument[2];
+    configuration of = { .bands = 3 };
+    if (count == 7)
+        of = (configuration) { .ggx = strcmp(argument[3], "ggx") == 0,
                                .bands = atoi(argument[4]),
                                .window = (lmp_window)atoi(argument[5]),
                                .areas = atoi(argument[6]) };
-    const size_t size = (size_t)SURFACES * (size_t)count_values(&of) * sizeof(float);
+    const size_t size =
+        (size_t)SURFACES * (size_t)(count == 7 ? count_values(&of) : 6) * sizeof(float);
     float *values = malloc(size);
     assert_non_null(values);
     fill_given(&data, &from);
     tables read = make_tables(&of);
+    const bool runs = strcmp(step, "run") == 0 || strcmp(step, "probes") == 0;
     int status = 0;
-    if (strcmp(argument[1], "inputs") == 0) {
-        write_file(argument[2], "given", &data, sizeof data);
-        write_file(argument[2], "tables", read.word, read.count * sizeof *read.word);
-    } else if (strcmp(argument[1], "check") == 0) {
-        read_file(argument[2], values, size);
-        status = check(&of, &data, &from, &read, values);
-    } else if (run(argument[2], &data, &read, values, size)) {
-        status = check(&of, &data, &from, &read, values);
-    } else
-        puts("skipped: the OpenGL device takes no SPIR-V");
+    if (strcmp(step, "inputs") == 0) {
+        write_file(path, "given", &data, sizeof data);
+        write_file(path, "tables", read.word, read.count * sizeof *read.word);
+    } else if (take(runs, path, &data, &read, values, size))
+        status = count == 7 ? check(&of, &data, &from, &read, values)
+                            : check_probes(&data, &from, values);
     free_tables(&read);
     free(values);
     return status;

@@ -55,24 +55,37 @@ await evaluate(`(async () => {
     };
 })()`);
 
+const constants = Object.entries(sizes).map(([name, value]) => `const ${name} = ${value};\n`).join('');
+
 function wholeText({ bands, window, ggx, loops, areas }) {
     const text = lampionWgsl({ bands, window, ggx, loops, spheres: false, areas, coefficients: true, coat: true, probe: true,
         preintegrated: 'brdf' });
-    const constants = Object.entries(sizes).map(([name, value]) => `const ${name} = ${value};\n`).join('');
     return text + constants + own('shade.wgsl') + own(`shade_${ggx ? 'ggx' : 'phong'}.wgsl`) + (areas ? own('shade_areas.wgsl') : '');
+}
+
+// Computes by code, and returns what the steps say of the values.
+async function compare(code, check, words, perSurface) {
+    mkdirSync(`${work}/inputs`, { recursive: true });
+    execFileSync(steps, ['inputs', `${work}/inputs`, ...words], { stdio: 'ignore' });
+    const inputs = ['given', 'tables'].map((name) => readFileSync(`${work}/inputs/${name}`).toString('base64'));
+    const values = await evaluate(`run(${JSON.stringify(code)}, ${JSON.stringify(inputs)}, ${4 * sizes.SURFACES * perSurface})`);
+    writeFileSync(`${work}/values`, Buffer.from(Uint32Array.from(values).buffer));
+    return execFileSync(steps, [check, `${work}/values`, ...check === 'check' ? words : []],
+        { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }).trim();
 }
 
 async function compute({ bands, window, ggx, loops, areas }) {
     const words = [ggx ? 'ggx' : 'phong', bands, windows.indexOf(window), areas].map(String);
-    mkdirSync(`${work}/inputs`, { recursive: true });
-    execFileSync(steps, ['inputs', `${work}/inputs`, ...words], { stdio: 'ignore' });
-    const inputs = ['given', 'tables'].map((name) => readFileSync(`${work}/inputs/${name}`).toString('base64'));
-    const size = 4 * sizes.SURFACES * (42 + 4 * bands + 2 * bands * bands), begun = performance.now();
-    const values = await evaluate(`run(${JSON.stringify(wholeText({ bands, window, ggx, loops, areas }))}, ${JSON.stringify(inputs)}, ${size})`);
-    const took = performance.now() - begun;
-    writeFileSync(`${work}/values`, Buffer.from(Uint32Array.from(values).buffer));
-    const said = execFileSync(steps, ['check', `${work}/values`, ...words], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
-    console.log(`${said.trim()}${loops ? ', loops' : ''}; ${(took / 1000).toFixed(1)} s`);
+    const said = await compare(wholeText({ bands, window, ggx, loops, areas }), 'check', words, 42 + 4 * bands + 2 * bands * bands);
+    console.log(`${said}${loops ? ', loops' : ''}`);
+}
+
+// The file for Bevy, whose preprocessor takes its line that begins with #.
+async function computeProbes() {
+    const file = own('../../../examples/engines/lampion_probe.wgsl').replace(/^#.*$/m, '');
+    const probe = 2 * sizes.LIGHTS + 3 * sizes.SURFACES + sizes.TEXELS + 11 * sizes.AREAS;
+    const code = `${constants}const PROBE = ${probe};\n${file}${own('../engines/bevy.wgsl')}`;
+    console.log(await compare(code, 'check_probes', ['phong', '3', '0', '0'], 6));
 }
 
 // The usual form has each file, window and kind of lobes and loops once.
@@ -89,6 +102,7 @@ let status = 0;
 try {
     for (const configuration of long ? all : some)
         await compute(configuration);
+    await computeProbes();
     for (let bands = 1; bands <= 32; bands++)
         for (const loops of [false, true])
             if (loops || long || [1, 2, 4, 10].includes(bands))
