@@ -101,7 +101,7 @@ static void make_lights(given *data, world *made) {
         light->position = (lmp_vec3) { d * w.x, d * w.y, d * w.z };
         light->radius = (float)check_random_between(0.1, 1.5);
         light->radiance = (lmp_rgb) { 3, (float)i, 1 };
-        set(data->light[i][0], light->position, light->radius);
+        set(data->light[i][0], light->position, (double)light->radius);
         set(data->light[i][1], (lmp_vec3) { 3, (float)i, 1 }, i == LIGHTS - 1);
         if (i == LIGHTS - 2) {
             light->kind = LMP_LIGHT_POINT;

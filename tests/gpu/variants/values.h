@@ -40,11 +40,11 @@ static void compare_vec3(comparison *with, const char *what, lmp_vec3 expected) 
 }
 
 /* The scale of an array is its largest value. */
-static void compare_array(comparison *with, const char *what, const float *expected, int count) {
+static void compare_array(comparison *with, const char *what, const float *expected, size_t count) {
     double scale = 0;
-    for (int i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++)
         scale = fmax(scale, fabs((double)expected[i]));
-    for (int i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++)
         compare(with, what, (double)expected[i], scale);
 }
 
@@ -167,14 +167,14 @@ static void compare_arrays(comparison *with, const configuration *of, const worl
     lmp_lobe_make_phong(bands, exponent, values);
     for (int l = 0; l < bands; l++)
         values[l] *= window[l];
-    compare_array(with, "a Phong lobe", values, bands);
+    compare_array(with, "a Phong lobe", values, (size_t)bands);
     lmp_lobe_make_diffuse(bands, values);
-    compare_array(with, "the diffuse lobe", values, bands);
-    compare_array(with, "the window", window, bands);
+    compare_array(with, "the diffuse lobe", values, (size_t)bands);
+    compare_array(with, "the window", window, (size_t)bands);
     lmp_light_project_zonal(bands, light, surface->position, values, &axis);
     for (int l = 0; l < bands; l++) /* L_l0 = pi R_l Y_l0(z), Y_l0(z)² = (2l+1) / (4 pi) */
         values[l] /= sqrtf((float)(2 * l + 1) * LMP_LOOKUP_PI / 4);
-    compare_array(with, "a cap's series", values, bands);
+    compare_array(with, "a cap's series", values, (size_t)bands);
     lmp_sphere_project(bands, light->position, light->radius, surface->position, sh);
     compare_array(with, "a sphere's coefficients", sh, LMP_SH_COUNT(bands));
     lmp_sh_eval(bands, surface->normal, sh);
