@@ -8,7 +8,7 @@ set -eu
 objects=$(ninja -C "$BUILD" -t inputs liblampion.a | sed -n "s,^\(CMakeFiles/lampion_objects[.]dir/.*[.]o\)\$,$BUILD/\1,p")
 [ "$(echo "$objects" | wc -l)" -gt 50 ] || fail "the objects of $BUILD:" $objects
 export SOURCE_DATE_EPOCH=0
-python=OFF components='library development' targets='lampion lampion_other lampion_hlsl lampion_metal'
+python=OFF components='library development' targets='lampion lampion_other lampion_hlsl lampion_metal lampion_wgsl'
 if [ -n "$(python_with cffi)" ]; then
     python=ON components="$components python" targets="$targets lampion_python"
 fi

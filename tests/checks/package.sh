@@ -87,7 +87,8 @@ zgrep -q "timed events" "$root/usr/share/man/man5/lampion-formats.5.gz" || fail 
 zgrep -q 'lights.json\|lights file' "$root/usr/share/man/man5/lampion-formats.5.gz" || fail "no manual page of formats"
 grep -q '<h1' "$root/usr/share/doc/liblampion-doc/html/index.html" || fail "no documents"
 for file in bash-completion/completions/lampion zsh/vendor-completions/_lampion fish/vendor_completions.d/lampion.fish \
-    lampion/shaders/lampion.glsl lampion/shaders/hlsl/lampion.hlsl lampion/shaders/metal/lampion.metal; do
+    lampion/shaders/lampion.glsl lampion/shaders/hlsl/lampion.hlsl lampion/shaders/metal/lampion.metal \
+    lampion/shaders/wgsl/lampion.js lampion/shaders/wgsl/ggx/lampion.wgsl; do
     [ -s "$root/usr/share/$file" ] || fail "no $file"
 done
 
