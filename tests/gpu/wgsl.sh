@@ -3,7 +3,7 @@
 set -eu
 for tool in node chromium; do
     command -v "$tool" >/dev/null || {
-        echo "skipped: $tool is not installed"
+        echo "skipped: $tool is not installed (packages nodejs, chromium)"
         exit 0
     }
 done

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// browser.mjs - headless Chromium without a GPU, by its debugging protocol over a pipe: no package is needed.
+// browser.mjs - headless Chromium without a GPU, by its debugging protocol over a pipe: no package is needed. Where a
+// shader compiles for 10 s on a busy machine, a watchdog would end the GPU's process, and the browser with it.
 import { spawn } from 'node:child_process';
 import { rm } from 'node:fs/promises';
 
 // more: options of the browser beside these.
 export async function openBrowser(profile, more = []) {
     const options = ['--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-        '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader',
+        '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--disable-gpu-watchdog',
         '--disable-dev-shm-usage', '--hide-scrollbars', '--force-color-profile=srgb', '--remote-debugging-pipe', `--user-data-dir=${profile}`, ...more];
     const browser = spawn('chromium', [...options, 'about:blank'], { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
     const waiting = new Map(), listeners = [], [, , , to, from] = browser.stdio;

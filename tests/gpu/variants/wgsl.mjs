@@ -4,6 +4,7 @@
 import { strict as assert } from 'node:assert';
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { openBrowser } from '../../web/browser.mjs';
 
@@ -98,8 +99,25 @@ const some = [
 const all = [1, 3, 5, 8, 10, 20, 32].flatMap((bands) => (bands > 10 ? ['hanning'] : windows).flatMap((window) => [false, true].map((ggx) => (
     { bands, window, ggx, loops: bands > 10 || window === 'lanczos', areas: window === 'none' && !ggx ? sizes.AREAS : 0 }))));
 
+// The files themselves, joined as docs/webgpu.md says.
+async function compileFiles() {
+    const named = 'const LMP_BANDS = 8;\nconst LMP_WINDOW = LMP_WINDOW_HANNING;\nconst LMP_WINDOW_SIZE = 8;\n';
+    const files = ['no_areas', 'spheres', 'lampion'].map((name) => readFileSync(`${dirname(module)}/phong/${name}.wgsl`, 'utf8'));
+    const mine = `fn lmp_light_count() -> i32 { return 1; }
+        fn lmp_light_sphere(i: i32) -> vec4f { return vec4f(0.0, 0.0, 2.0, 1.0); }
+        fn lmp_light_radiance(i: i32) -> vec3f { return vec3f(1.0); }`;
+    await evaluate(`compile(${JSON.stringify(named + files.join('') + mine)}).then(() => 0)`);
+}
+
+function refuse() {
+    for (const options of [{ bands: 0 }, { bands: 33 }, { bands: 2.5 }, {}, { bands: 3, window: 'hann' }])
+        assert.throws(() => lampionWgsl(options), RangeError);
+}
+
 let status = 0;
 try {
+    refuse();
+    await compileFiles();
     for (const configuration of long ? all : some)
         await compute(configuration);
     await computeProbes();
