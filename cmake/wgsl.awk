@@ -383,7 +383,7 @@ function indented(text,    line, count, i, depth, done, goes_on, comment, member
             continue
         sub(/ *\/\*.*/, "", line[i])
         members = line[i] ~ /^struct/ || (members && line[i] !~ /^}/)
-        if (line[i] ~ /{$/)
+        if (line[i] ~ /[{]$/)
             depth++
         goes_on = line[i] !~ /[;{}]$/ && !members
     }
@@ -395,7 +395,7 @@ function write_file(file,    path, done, name, text) {
     sub(/.*\//, "", path)
     name = path
     sub(/\.[a-z]+$/, "", name)
-    hooks = ""
+    hooks = name == "lampion" ? "\n *     const LMP_BANDS, LMP_WINDOW, LMP_WINDOW_SIZE" : ""
     for (at = first_token[file]; at < first_token[file + 1];) {
         if (token[at] == "struct")
             text = write_struct(at)
@@ -411,7 +411,7 @@ function write_file(file,    path, done, name, text) {
     text = "/* SPDX-License-Identifier: MIT */\n/* " name ".wgsl, made from " path ", which says more, while Lampion is built."
     if (hooks != "")
         text = text "\n *\n * You define" hooks "\n"
-    print text " */" indented(done) > (folder "/" name ".wgsl")
+    print text " */\n" indented(done) > (folder "/" name ".wgsl")
 }
 
 END {
