@@ -4,7 +4,7 @@
  * Upload what lmp_probe_make_constants returns, scale 1/pi, as seven vectors: material.SetVectorArray, or in
  * VRChat VRCShader.SetGlobalVectorArray, whose names begin with _Udon. The first three alone are a probe of
  * two bands, made of coefficients whose third band is 0. Unity's world is left-handed, glTF's importers negate
- * x: convert the coefficients first, by lmp_probe_convert to the convention of LMP_PROBE_UNITY's format.
+ * x: convert the coefficients first, by lmp_probe_convert to this library's convention with the axes -1, 2, 3.
  *
  *     #include "lampion_probe.cginc"
  *     float4 _Udon_Probe[7];
