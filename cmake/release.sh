@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# release.sh: makes a release in out/release-VERSION/: the packages and the source archive by ./dev package, the notes,
-# and a checksum of each file. The commit must be ready: nothing uncommitted, and the headers' version at the top of
+# release.sh: makes a release in out/release-VERSION/: the packages and the source archive by ./dev package, the wheel, the
+# npm package, the shaders, the site, the notes, and a checksum of each file. The commit must be ready: nothing uncommitted, and the headers' version at the top of
 # CHANGELOG.md, with its date.
 set -eu
 cd "$(dirname "$0")/.."
@@ -35,6 +35,28 @@ heading | grep -qE '^[0-9.]+ \([0-9]{4}-[0-9]{2}-[0-9]{2}\)$' || fail "CHANGELOG
 folder=out/release-$version
 rm -rf "$folder"
 ./dev package "$folder" >/dev/null
+./dev npm "$folder" >/dev/null
+stage=$(mktemp -d)
+trap 'rm -rf "$stage"' EXIT
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export SOURCE_DATE_EPOCH
+for component in library development python; do
+    cmake --install build/package --prefix "$stage/usr" --component $component >/dev/null
+done
+sh python/wheel.sh "$stage/usr" "$folder" >/dev/null
+# The shaders in every language, for engines without a package manager.
+mkdir "$stage/lampion-shaders-$version"
+cp -r "$stage/usr/share/lampion/shaders/." examples/engines LICENSE "$stage/lampion-shaders-$version"
+archive() { # FILE FORMAT FOLDER, whose files get the commit's time
+    (cd "$stage" && find "$3" -exec touch -d "@$SOURCE_DATE_EPOCH" {} + && find "$3" -type f | LC_ALL=C sort >"$stage/list" &&
+        TZ=UTC cmake -E tar cf "$1" "--format=$2" --files-from="$stage/list")
+}
+archive "$PWD/$folder/lampion-shaders-$version.zip" zip "lampion-shaders-$version"
+rm -rf build/site/docs build/site/index.html
+./dev docs >/dev/null
+cp -r build/site "$stage/lampion-site-$version"
+rm -rf "$stage/lampion-site-$version/demo"
+archive "$PWD/$folder/lampion-site-$version.zip" zip "lampion-site-$version"
 notes >"$folder/release-notes.md"
 (cd "$folder" && sha256sum -- * >../SHA256SUMS && mv ../SHA256SUMS .)
 ls "$folder"/*

@@ -29,6 +29,17 @@ refused() {
     [ ! -e out ] || fail "refused, and out/ is there"
 }
 
+# What takes minutes is judged elsewhere: the npm package by web.npm, the site by docs.site.
+cat >web/package/pack.sh <<'END'
+mkdir -p "$2"
+echo "stands for the npm package" >"$2/lampion-stand-in.tgz"
+END
+cat >docs/site/build.sh <<'END'
+mkdir -p "$1/docs"
+echo "stands for the site" >"$1/index.html"
+END
+git commit -qam "Stand in for the npm package and the site"
+
 heading "$version (unreleased)"
 refused "no date"
 heading "9.9.9 (2030-01-02)"
@@ -50,13 +61,18 @@ SOURCE_DATE_EPOCH=$(git log -1 --format=%ct) cmake --preset package -DLAMPION_PR
 released
 folder=out/release-$version
 for file in "liblampion${version%.*}_$version-1_"*.deb "liblampion-dev_$version-1_"*.deb "liblampion-doc_$version-1_all.deb" "python3-lampion_$version-1_all.deb" \
-    "lampion-$version.tar.gz" release-notes.md SHA256SUMS; do
+    "lampion-$version.tar.gz" "lampion-$version-py3-none-"*.whl lampion-stand-in.tgz "lampion-shaders-$version.zip" \
+    "lampion-site-$version.zip" release-notes.md SHA256SUMS; do
     [ -s "$(echo $folder/$file)" ] || fail "no $file in $(ls $folder)"
 done
 [ "$(wc -l <$folder/SHA256SUMS)" = "$(($(ls $folder | wc -l) - 1))" ] || fail "not a checksum for each file"
 (cd $folder && sha256sum --quiet -c SHA256SUMS) || fail "checksums that do not hold"
 [ "$(head -n 1 $folder/release-notes.md)" = "# Lampion $version (2030-01-02)" ] || fail "the notes begin otherwise"
 ! grep -q '^## \|](docs' $folder/release-notes.md || fail "the notes hold more than one version, or links into the tree"
+python3 -m zipfile -l "$folder/lampion-shaders-$version.zip" >"$WORK/shaders"
+for file in lampion.glsl hlsl/lampion.hlsl metal/lampion.metal wgsl/lampion.js wgsl/ggx/lampion.wgsl engines/lampion_probe.cginc LICENSE; do
+    grep -q "^lampion-shaders-$version/$file " "$WORK/shaders" || fail "the shaders' archive lacks $file"
+done
 [ -z "$(git status --porcelain)" ] || fail "the tree is no longer clean: $(git status --porcelain)"
 
 cp -r $folder "$WORK/first"

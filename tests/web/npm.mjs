@@ -5,6 +5,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { LampionError, compileLampion, load } from 'lampion';
+import { lampion as glsl } from 'lampion/shaders';
+import { lampionWgsl } from 'lampion/wgsl';
 import { functions } from './node_modules/lampion/api.js';
 
 const close = (value, expected, bound, what) => assert.ok(Math.abs(value - expected) <= bound, `${what}: ${value}, not ${expected}`);
@@ -342,9 +344,8 @@ const sphere = { position: [0, 0, 3], radius: 1, radiance: [1, 2, 4] };
 
     close(lmp.probe_irradiance(3, direct, [0, 0, -1]).g, 2 * lmp.probe_irradiance(3, direct, [0, 0, -1]).r, 1e-5, 'green of a probe');
     lmp.probe_irradiance_n(3, direct, up, 1, rgb);
-    const constants = lmp.probe_make_constants(3, 1, direct), n = [0, 0, 1];
+    const constants = lmp.probe_make_constants(3, 1, direct);
     close(constants.linear[0][2] + constants.linear[0][3] + constants.quadratic[0][2], rgb[0], 1e-5, 'constants of a probe');
-    void n;
     const directions = floats(3 * 200), values = floats(200), fitted = floats(4);
     for (let i = 0; i < 200; i++) {
         const z = 1 - (2 * i + 1) / 200, a = 2.399963 * i;
@@ -467,4 +468,5 @@ assert.deepEqual(missing, [], 'functions that nothing calls');
     for (const name of ['lampion.wasm', 'lampion-scalar.wasm'])
         assert.ok(WebAssembly.Module.exports(new WebAssembly.Module(readFileSync(`node_modules/lampion/${name}`))).length > 160);
 }
+assert.ok(glsl.includes('lmp_shade_zonal') && lampionWgsl({ bands: 3 }).includes('fn lmp_shade_zonal'));
 console.log(`${called.size} functions`);

@@ -99,7 +99,11 @@ draw volume '?export&volume' --bands 3 --material matte=lambert:1,1,1
 within volume 0.02 || fail "a volume of probes: $(cat "$WORK/log")"
 ! within probe 0.02 || fail "probes that are missing go unseen"
 
-# The page of docs/npm.md, with the lines that export it.
+# The README's block is the module of the page of docs/npm.md, which is run with the lines that export it.
+code_blocks "$SOURCE/README.md" js >readme.js
+[ -s readme.js ] || fail "README.md has no block in JavaScript"
+code_blocks "$SOURCE/docs/npm.md" html | sed -n '/^import \* as/,/^<\/script>/{/^<\/script>/d;p}' | cmp -s - readme.js ||
+    fail "README.md and docs/npm.md show different pages"
 sed -n '/^```html$/,/^```$/{/^```/d;p}' "$SOURCE/docs/npm.md" | sed 's/innerWidth/320/g; s/innerHeight/200/g; /^<\/script>$/d' >first.html
 cat >>first.html <<'END'
 const { EXRExporter, NO_COMPRESSION } = await import('./node_modules/three/examples/jsm/exporters/EXRExporter.js');

@@ -4,6 +4,7 @@ import { Box3, LightProbe, MeshStandardMaterial, Quaternion, Scene } from 'three
 import { LampionError, compileLampion, load } from 'lampion';
 import type { Light, Surfaces } from 'lampion';
 import { ProbeGrid } from 'lampion/probes';
+import { lampionWgsl } from 'lampion/wgsl';
 import { LightProbeVolume, SphereLight, SphereLights, SplatLights, lightProbe } from 'lampion/three';
 
 const lmp = await load({ memory: 1 << 24 });
@@ -44,3 +45,6 @@ const probe: LightProbe = lightProbe(lmp, scene);
 new SplatLights(lmp).rotate(new Quaternion(), 3, new Float32Array(24));
 new ProbeGrid(lmp, { min: [0, 0, 0], max: [1, 1, 1], size: [2, 2, 2] }).light({ center: lmp.floats(3), radius: lmp.floats(1), radiance: lmp.floats(3) }, 1);
 console.log(material, probe);
+const text: string = lampionWgsl({ bands: 3, window: 'hanning', ggx: true });
+// @ts-expect-error no such window
+lampionWgsl({ bands: 3, window: 'hann' }).includes(text);

@@ -8,7 +8,7 @@ build=$(realpath -m "$1") out=$(realpath -m "$2")
 export NODE_PATH=/usr/share/nodejs # of Debian's Emscripten, for a node from elsewhere
 for kind in simd scalar; do
     [ -f "$build/$kind/build.ninja" ] || cmake --preset "web-$kind" -B "$build/$kind"
-    cmake --build "$build/$kind" --target package
+    cmake --build "$build/$kind" --target package lampion_wgsl
 done
 version=$(sed -n 's/^#define LMP_VERSION_[A-Z]* //p' include/lampion/base.h | paste -sd .)
 
@@ -20,6 +20,8 @@ cp "$build/simd/web/package/lampion.wasm" "$build/scalar/web/package/lampion-sca
 cp web/package/index.js web/package/index.d.ts web/package/call.js web/package/extents.js web/package/three.js \
     web/package/three.d.ts web/package/probes.js web/package/probes.d.ts web/package/worker.js LICENSE "$folder"
 cp shaders/lampion/*.glsl "$folder/shaders"
+cp "$build/simd/variants/wgsl/lampion.js" "$folder/wgsl.js"
+cp web/package/wgsl.d.ts "$folder"
 # The page of the documents, without links to others and without notes for its test.
 sed -E '/^<!-- .* -->$/d; s/\[([^]]*)\]\((\.\.\/|[a-z])[^)]*\)/\1/g' docs/npm.md >"$folder/README.md"
 sed "s/\"0.0.0\"/\"$version\"/" web/package/package.json >"$folder/package.json"
