@@ -43,7 +43,7 @@ export SOURCE_DATE_EPOCH
 for component in library development python; do
     cmake --install build/package --prefix "$stage/usr" --component $component >/dev/null
 done
-sh python/wheel.sh "$stage/usr" "$folder" >/dev/null
+PYTHON=/usr/bin/python3 sh python/wheel.sh "$stage/usr" "$folder" >/dev/null
 # The shaders in every language, for engines without a package manager.
 mkdir "$stage/lampion-shaders-$version"
 cp -r "$stage/usr/share/lampion/shaders/." examples/engines LICENSE "$stage/lampion-shaders-$version"
