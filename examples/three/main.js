@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Balls from smooth to rough under 30 sphere lights, beside a sun and a point light of three.js; ?probe is one matte
-// ball lit by a LightProbe instead, ?volume matte balls lit by a grid of probes.
+// ball lit by a LightProbe instead, ?volume matte balls lit by a grid of probes; &webgpu draws by WebGPU.
 //
 // For tests, ?export sends the scene as glTF and the image as OpenEXR to the server; with ?alone three.js' own lights are
 // left out.
-import * as THREE from 'three';
 import { load } from 'lampion';
-import { LightProbeVolume, SphereLight, SphereLights, lightProbe } from 'lampion/three';
+import { SphereLight, lightProbe } from 'lampion/three';
 
-const asked = new URLSearchParams(location.search);
+const asked = new URLSearchParams(location.search), webgpu = asked.has('webgpu');
+const THREE = await (webgpu ? import('three/webgpu') : import('three'));
+const { LightProbeVolume, SphereLights } = await (webgpu ? import('lampion/three-webgpu') : import('lampion/three'));
+const Material = webgpu ? THREE.MeshStandardNodeMaterial : THREE.MeshStandardMaterial;
 const size = asked.has('export') ? [320, 200] : [innerWidth, innerHeight];
 const matte = asked.has('volume');
 
@@ -29,7 +31,7 @@ const lamps = lights.map(({ position, radius, radiance }) => {
 scene.add(...lamps);
 
 function add(geometry, options) {
-    const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial(options));
+    const mesh = new THREE.Mesh(geometry, new Material(options));
     scene.add(mesh);
     return mesh;
 }
@@ -82,9 +84,19 @@ if (asked.has('probe')) {
     lit.update(scene);
 }
 
-const renderer = new THREE.WebGLRenderer({ antialias: true });
+const renderer = new THREE[webgpu ? 'WebGPURenderer' : 'WebGLRenderer']({ antialias: true });
+await renderer.init?.();
 renderer.setSize(...size);
 document.body.append(renderer.domElement);
+
+// What WebGPU drew into a target, whose rows begin at the top, as a texture of WebGL's.
+async function flipped(target) {
+    const [width, height] = size, pixels = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height);
+    const rows = Array.from({ length: height }, (none, y) => pixels.subarray(4 * width * y, 4 * width * (y + 1))).reverse();
+    const data = new Float32Array(pixels.length);
+    rows.forEach((row, y) => data.set(row, 4 * width * y));
+    return new THREE.DataTexture(data, width, height, THREE.RGBAFormat, THREE.FloatType);
+}
 
 async function exportAll() {
     const { EXRExporter, NO_COMPRESSION } = await import('three/addons/exporters/EXRExporter.js');
@@ -94,8 +106,9 @@ async function exportAll() {
     renderer.render(scene, camera);
     const options = { type: THREE.FloatType, compression: NO_COMPRESSION };
     const send = (name, body) => fetch(name, { method: 'PUT', body });
-    await send('scene.gltf', JSON.stringify(await new GLTFExporter().parseAsync(scene)));
-    await send('three.exr', await new EXRExporter().parse(renderer, target, options));
+    if (!webgpu) // the same scene
+        await send('scene.gltf', JSON.stringify(await new GLTFExporter().parseAsync(scene)));
+    await send('three.exr', await (webgpu ? new EXRExporter().parse(await flipped(target), options) : new EXRExporter().parse(renderer, target, options)));
 }
 
 if (asked.has('export'))

@@ -93,10 +93,14 @@ within alone 2e-5 || fail "30 lights: $(cat "$WORK/log")"
 draw beside '?export' --bands 16 --keep-lights
 within beside 0.01 || fail "beside three's own lights: $(cat "$WORK/log")"
 ! within alone 0.01 || fail "lights that are missing go unseen"
+draw webgpu '?export&alone&webgpu' --bands 16
+within webgpu 2e-5 || fail "30 lights by WebGPU: $(cat "$WORK/log")"
 draw probe '?export&probe' --bands 3 --window none --material matte=lambert:1,1,1
 within probe 1e-4 || fail "a probe: $(cat "$WORK/log")"
 draw volume '?export&volume' --bands 3 --material matte=lambert:1,1,1
 within volume 0.02 || fail "a volume of probes: $(cat "$WORK/log")"
+draw webgpu '?export&volume&webgpu' --bands 3 --material matte=lambert:1,1,1
+within webgpu 0.02 || fail "a volume of probes by WebGPU: $(cat "$WORK/log")"
 ! within probe 0.02 || fail "probes that are missing go unseen"
 
 # The README's block is the module of the page of docs/npm.md, which is run with the lines that export it.

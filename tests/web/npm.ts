@@ -4,6 +4,7 @@ import { Box3, LightProbe, MeshStandardMaterial, Quaternion, Scene } from 'three
 import { LampionError, compileLampion, load } from 'lampion';
 import type { Light, Surfaces } from 'lampion';
 import { ProbeGrid } from 'lampion/probes';
+import { LightProbeVolume as NodeVolume, SphereLights as NodeLights } from 'lampion/three-webgpu';
 import { lampionWgsl } from 'lampion/wgsl';
 import { LightProbeVolume, SphereLight, SphereLights, SplatLights, lightProbe } from 'lampion/three';
 
@@ -48,3 +49,5 @@ console.log(material, probe);
 const text: string = lampionWgsl({ bands: 3, window: 'hanning', ggx: true });
 // @ts-expect-error no such window
 lampionWgsl({ bands: 3, window: 'hann' }).includes(text);
+new NodeLights(lmp, scene, { bands: 5, most: 10 }).update();
+new NodeVolume(lmp, new Box3(), [2, 2, 2]).update(scene);

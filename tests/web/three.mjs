@@ -42,7 +42,7 @@ async function serve(request, response) {
 
 const server = createServer(serve).listen(0, '127.0.0.1', () => {
     const options = ['--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
-        '--enable-unsafe-swiftshader', '--enable-logging=stderr', `--user-data-dir=${folder}/profile`];
+        '--enable-unsafe-swiftshader', '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-logging=stderr', `--user-data-dir=${folder}/profile`];
     browser = spawn(program, [...options, `http://127.0.0.1:${server.address().port}/${page}`]);
     browser.stderr.on('data', (text) => log += text);
     browser.on('exit', () => end(1));

@@ -18,7 +18,7 @@ mkdir -p "$folder/shaders" "$out"
 cp "$build/simd/web/package/lampion.wasm" "$build/scalar/web/package/lampion-scalar.wasm" \
     "$build/simd/web/package/api.js" "$build/simd/web/package/api.d.ts" "$folder"
 cp web/package/index.js web/package/index.d.ts web/package/call.js web/package/extents.js web/package/three.js \
-    web/package/three.d.ts web/package/probes.js web/package/probes.d.ts web/package/worker.js LICENSE "$folder"
+    web/package/three.d.ts web/package/spheres.js web/package/patches.js web/package/webgpu.js web/package/webgpu.d.ts web/package/probes.js web/package/probes.d.ts web/package/worker.js LICENSE "$folder"
 cp shaders/lampion/*.glsl "$folder/shaders"
 cp "$build/simd/variants/wgsl/lampion.js" "$folder/wgsl.js"
 cp web/package/wgsl.d.ts "$folder"

@@ -2,88 +2,16 @@
 // Lampion in three.js: sphere lights for MeshStandardMaterial (SphereLights), grids of probes that are lit anew every
 // frame (LightProbeVolume), and lights and rotations for Gaussian splats (SplatLights). WebGL 2.
 import {
-    Color, Data3DTexture, DataTexture, FloatType, HalfFloatType, LightProbe, LinearFilter, MeshStandardMaterial, Object3D, RGBAFormat, Vector3,
+    Data3DTexture, DataTexture, FloatType, HalfFloatType, LightProbe, LinearFilter, RGBAFormat, Vector3,
 } from 'three';
+import { Patches } from './patches.js';
 import { ProbeGrid, SLABS } from './probes.js';
 import { ggx, lampion, probe } from './shaders.js';
+import { SphereLight, Spheres, gather } from './spheres.js';
 
 const ROW = 512; // lights in a row of the texture, 2 texels each
-const world = new Vector3();
 
-// A glowing sphere. Its intensity is that of a PointLight, in candela, whatever its radius: it keeps its light as it
-// grows. `radiance` is that of its surface.
-export class SphereLight extends Object3D {
-    constructor(color = 0xffffff, intensity = 1, radius = 0.1) {
-        super();
-        this.isSphereLight = true;
-        this.type = 'SphereLight';
-        this.color = new Color(color);
-        Object.assign(this, { intensity, radius });
-    }
-    get radiance() {
-        return this.intensity / (Math.PI * this.radius ** 2);
-    }
-    set radiance(radiance) {
-        this.intensity = radiance * Math.PI * this.radius ** 2;
-    }
-    get power() {
-        return 4 * Math.PI * this.intensity;
-    }
-    set power(power) {
-        this.intensity = power / (4 * Math.PI);
-    }
-    copy(source, recursive) {
-        super.copy(source, recursive);
-        this.color.copy(source.color);
-        return Object.assign(this, { intensity: source.intensity, radius: source.radius });
-    }
-}
-
-// Returns the visible sphere lights of a scene as arrays in Lampion's memory, which `spheres` keeps.
-function gather(scene, spheres) {
-    let count = 0;
-    scene.traverseVisible((light) => {
-        if (!light.isSphereLight)
-            return;
-        if (!(light.radius > 0))
-            throw new RangeError(`the radius of SphereLight ${light.name} is ${light.radius}`);
-        spheres.reserve(count + 1);
-        world.setFromMatrixPosition(light.matrixWorld).toArray(spheres.center, 3 * count);
-        spheres.radius[count] = light.radius;
-        const { radiance } = light;
-        spheres.radiance.set([radiance * light.color.r, radiance * light.color.g, radiance * light.color.b], 3 * count);
-        count++;
-    });
-    spheres.count = count;
-    return spheres;
-}
-
-class Spheres {
-    constructor(lmp) {
-        Object.assign(this, { lmp, count: 0, capacity: 0 });
-        this.reserve(64);
-    }
-    reserve(count) {
-        if (count <= this.capacity)
-            return;
-        const { lmp, center, radius, radiance } = this;
-        this.capacity = Math.max(count, 2 * this.capacity);
-        for (const [name, width, old] of [['center', 3, center], ['radius', 1, radius], ['radiance', 3, radiance]]) {
-            this[name] = lmp.floats(width * this.capacity);
-            if (old) {
-                this[name].set(old);
-                lmp.free(old);
-            }
-        }
-    }
-    get arrays() {
-        return { center: this.center, radius: this.radius, radiance: this.radiance };
-    }
-    free() {
-        for (const array of [this.center, this.radius, this.radiance])
-            this.lmp.free(array);
-    }
-}
+export { SphereLight };
 
 // Adds code to the shader of a standard material, after what others have added.
 function extend(material, key, uniforms, change) {
@@ -102,28 +30,7 @@ function extend(material, key, uniforms, change) {
     };
 }
 
-// Materials that were changed, and how to undo it.
-class Patches {
-    constructor(patch) {
-        Object.assign(this, { patch, undo: new Map() });
-    }
-    add(material) {
-        if (material instanceof MeshStandardMaterial && !this.undo.has(material))
-            this.undo.set(material, this.patch(material));
-        return material;
-    }
-    addScene(scene) {
-        scene.traverse(({ material }) => {
-            for (const one of material ? [material].flat() : [])
-                if (one.userData.lampion !== false)
-                    this.add(one);
-        });
-    }
-    dispose() {
-        this.undo.forEach((undo) => undo());
-        this.undo.clear();
-    }
-}
+const isStandard = ({ isMeshStandardMaterial }) => isMeshStandardMaterial === true;
 
 const WORLD = `
     vec3 lampionToWorld(vec3 v) { return (vec4(v, 0.0) * viewMatrix).xyz; }
@@ -159,7 +66,7 @@ export class SphereLights {
             reflectedLight.directSpecular += lmp_shade_zonal(lmp_surface(lampionLightWorldPosition(geometryPosition),
                     lampionLightToWorld(geometryNormal), lampionLightToWorld(geometryViewDir)),
                 lmp_metallic_roughness(diffuseColor.rgb, metalnessFactor, roughnessFactor));`;
-        this.patches = new Patches((material) => extend(material, `lampion ${bands}`, this.uniforms, (shader) =>
+        this.patches = new Patches(isStandard, (material) => extend(material, `lampion ${bands}`, this.uniforms, (shader) =>
             shader.replace('void main() {', () => head).replace('#include <lights_fragment_end>', () => body)));
         this.update();
     }
@@ -209,6 +116,9 @@ export class LightProbeVolume {
         this.uniforms = {
             lampionVolume: { value: texture }, lampionVolumeMin: { value: box.min.clone() }, lampionVolumeExtent: { value: new Vector3(...extent) },
         };
+        this.patches = this.makePatches(size);
+    }
+    makePatches(size) {
         const [x, y, z] = size.map((n) => `${n}.0`);
         const head = `
             uniform highp sampler3D lampionVolume;
@@ -235,7 +145,7 @@ export class LightProbeVolume {
                 irradiance += lampionVolumeIrradiance(lampionVolumeWorldPosition(geometryPosition), lampionVolumeToWorld(geometryNormal));
             #endif
             #include <lights_fragment_maps>`;
-        this.patches = new Patches((material) => extend(material, `lampion volume ${size}`, this.uniforms, (shader) =>
+        return new Patches(isStandard, (material) => extend(material, `lampion volume ${size}`, this.uniforms, (shader) =>
             shader.replace('void main() {', () => head).replace('#include <lights_fragment_maps>', () => body)));
     }
     add(material) {
@@ -279,7 +189,7 @@ export function lightProbe(lmp, scene, light = new LightProbe()) {
     scene.updateMatrixWorld();
     light.updateMatrixWorld();
     const { arrays, count } = gather(scene, spheres);
-    lmp.sphere_sum_n(3, arrays, count, null, new Float32Array(world.setFromMatrixPosition(light.matrixWorld).toArray()), 1, sh);
+    lmp.sphere_sum_n(3, arrays, count, null, new Float32Array(new Vector3().setFromMatrixPosition(light.matrixWorld).toArray()), 1, sh);
     spheres.free();
     for (let i = 0; i < 9; i++)
         light.sh.coefficients[i].set(sh[i], sh[9 + i], sh[18 + i]).multiplyScalar(i % 2 ? -1 : 1);
