@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 build=$1 out=$2
-export NODE_PATH=/usr/share/nodejs # of Debian's Emscripten, for a node from elsewhere
+. web/emscripten.sh
 [ -f "$build/build.ninja" ] || cmake --preset web -B "$build"
 cmake --build "$build" --target demo
 mkdir -p "$out"

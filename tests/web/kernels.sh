@@ -5,7 +5,7 @@ set -eu
 for tool in emcc node; do
     command -v $tool >/dev/null || { echo "skipped: $tool is not installed (packages emscripten, nodejs)"; exit 0; }
 done
-export NODE_PATH=/usr/share/nodejs # of Debian's Emscripten, for a node from elsewhere
+. web/emscripten.sh
 
 [ -f "$BUILD/web/build.ninja" ] || cmake --preset web -B "$BUILD/web" >"$WORK/log"
 cmake --build "$BUILD/web" --target lampion >"$WORK/log" || fail "$(cat "$WORK/log")"

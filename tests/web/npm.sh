@@ -12,7 +12,7 @@ skip() {
 for tool in emcc node npm chromium; do
     command -v $tool >/dev/null || skip "$tool is not installed"
 done
-export NODE_PATH=/usr/share/nodejs # of Debian's Emscripten, for a node from elsewhere
+. web/emscripten.sh
 
 for out in once twice; do
     sh web/package/pack.sh "$BUILD/npm" "$WORK/$out" >"$WORK/log" 2>&1 || fail "$(tail -c 2000 "$WORK/log")"

@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/../.."
 build=$(realpath -m "$1") out=$(realpath -m "$2")
-export NODE_PATH=/usr/share/nodejs # of Debian's Emscripten, for a node from elsewhere
+. web/emscripten.sh
 for kind in simd scalar; do
     [ -f "$build/$kind/build.ninja" ] || cmake --preset "web-$kind" -B "$build/$kind"
     cmake --build "$build/$kind" --target package lampion_wgsl
