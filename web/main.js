@@ -15,7 +15,7 @@ const state = {
     moving: !asked.has('time'), scale: asked.get('scale') ?? 'auto', divider: Number(asked.get('split') || 0.5),
 };
 let seconds = Number(asked.get('time') ?? 0), exposure = Number(asked.get('exposure') ?? 0);
-let library, renderer = null, camera, lights, autoScale = 1;
+let library, renderer = null, camera, lights;
 
 function tell(message, wrong = false) {
     element('message').textContent = message;
@@ -64,31 +64,33 @@ async function openFile(file) {
 
 // --- frames ---
 
-function fit() {
-    const scale = state.scale === 'auto' ? autoScale : Number(state.scale);
+// Automatic resolution: the first frame is small, the next ones as large as holds BUSY milliseconds; a page at rest is drawn
+// once more, as large as holds REST.
+const BUSY = 80, REST = 1000, SMALLEST = 0.1;
+let autoScale = 0.25, refined = false;
+const holding = (spent, milliseconds) => Math.min(Math.max(autoScale * Math.sqrt(milliseconds / spent), SMALLEST), 1);
+
+function fit(scale) {
     const ratio = scale * Math.min(devicePixelRatio, 2);
     canvas.width = Math.max(1, Math.round(innerWidth * ratio));
     canvas.height = Math.max(1, Math.round(innerHeight * ratio));
 }
 
 // Milliseconds from one frame to the next; with software rendering that is the time of a frame.
-let mean = 0, told = 0, slow = 0;
+let mean = 0, told = 0;
 function measure(spent, now) {
     mean = mean ? 0.8 * mean + 0.2 * spent : spent;
     if (now - told > 300) {
         element('frame').value = `${mean.toFixed(mean < 100 ? 1 : 0)} ms · ${canvas.width}×${canvas.height}`;
         told = now;
     }
-    // one step at a time, after several slow frames
-    slow = spent > 50 ? slow + 1 : 0;
-    if (slow >= 4 && autoScale > 0.3) {
-        autoScale *= 0.7;
-        slow = 0;
-    }
+    const scale = holding(spent, BUSY);
+    if (scale < 0.8 * autoScale || scale > 1.25 * autoScale || scale === 1) // small changes would flicker
+        autoScale = scale;
 }
 
-function draw() {
-    fit();
+function draw(scale = autoScale) {
+    fit(state.scale === 'auto' ? scale : Number(state.scale));
     lights = library.lights(seconds);
     const { method, bands, window } = state, settings = { method, bands, window };
     exposure ||= renderer.exposure(camera, lights, settings);
@@ -98,7 +100,7 @@ function draw() {
 
 // Nothing is drawn again until something changes, which takes some frames to be measured: a still
 // page costs nothing.
-let due = 2, last = 0;
+let due = 3, last = 0;
 function frame(now) {
     const drawing = renderer && (state.moving || due > 0);
     if (drawing) {
@@ -107,7 +109,11 @@ function frame(now) {
             seconds += state.moving && !held ? Math.min(now - last, 100) / 1000 : 0;
         }
         due--;
-        draw();
+        draw(autoScale);
+        refined = false;
+    } else if (renderer && !refined) {
+        draw(holding(mean || BUSY, REST));
+        refined = true;
     }
     last = drawing ? now : 0;
     requestAnimationFrame(frame);
@@ -260,7 +266,7 @@ begin().catch((error) => tell(error.message, true));
 
 // for the console, and for tests
 globalThis.lampion = {
-    draw, state, lightAt: (i) => [...lights.spheres.subarray(12 * i, 12 * i + 4)],
+    draw, state, rested: () => refined, lightAt: (i) => [...lights.spheres.subarray(12 * i, 12 * i + 4)],
     project: (i) => camera.project([...lights.spheres.subarray(12 * i, 12 * i + 3)], innerWidth, innerHeight),
     pick: ([clientX, clientY]) => pick(lights.spheres, rayAt({ clientX, clientY }), 1),
     get exposure() { return exposure; },

@@ -136,6 +136,21 @@ async function resize() {
     assert.equal(await evaluate('document.getElementById("view").height'), 150);
 }
 
+// Automatic resolution is lower while lights move than at rest.
+async function adapt() {
+    await browser.size(640, 360);
+    const width = () => evaluate('document.getElementById("view").width');
+    await open('lights=30&closed');
+    await until('document.getElementById("frame").value !== ""');
+    await evaluate('new Promise((wake) => setTimeout(wake, 1500))');
+    const moving = await width();
+    await open('time=0&lights=30&closed');
+    await until('lampion.rested()');
+    const rest = await width();
+    assert.ok(moving >= 64 && rest >= 160 && moving <= rest, `${moving} pixels across while lights move, ${rest} at rest`);
+    await browser.size(320, 180);
+}
+
 async function lose() {
     await browser.size(200, 150);
     await open('time=0&scale=1&closed&lights=30');
@@ -190,7 +205,7 @@ async function phone() {
 
 let status = 0;
 try {
-    for (const step of [draw, choose, room, rest, small, drag, resize, lose, drop, phone]) {
+    for (const step of [draw, choose, room, rest, small, drag, resize, adapt, lose, drop, phone]) {
         console.time(step.name);
         await step();
         console.timeEnd(step.name);
