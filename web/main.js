@@ -77,8 +77,9 @@ function fit(scale) {
 }
 
 // Milliseconds from one frame to the next; with software rendering that is the time of a frame.
-let mean = 0, told = 0;
+let mean = 0, told = 0, latest = BUSY;
 function measure(spent, now) {
+    latest = spent;
     mean = mean ? 0.8 * mean + 0.2 * spent : spent;
     if (now - told > 300) {
         element('frame').value = `${mean.toFixed(mean < 100 ? 1 : 0)} ms · ${canvas.width}×${canvas.height}`;
@@ -98,9 +99,10 @@ function draw(scale = autoScale) {
     renderer.draw(camera, lights, settings, other, state.split ? state.divider : 1, exposure);
 }
 
-// Nothing is drawn again until something changes, which takes some frames to be measured: a still
-// page costs nothing.
-let due = 3, last = 0;
+// Nothing is drawn again until something changes, which takes some frames to be measured, because the first may compile
+// shaders: a still page costs nothing.
+const FRAMES = 5;
+let due = FRAMES, last = 0;
 function frame(now) {
     const drawing = renderer && (state.moving || due > 0);
     if (drawing) {
@@ -112,7 +114,7 @@ function frame(now) {
         draw(autoScale);
         refined = false;
     } else if (renderer && !refined) {
-        draw(holding(mean || BUSY, REST));
+        draw(holding(latest, REST));
         refined = true;
     }
     last = drawing ? now : 0;
@@ -137,7 +139,7 @@ canvas.addEventListener('pointermove', (event) => {
     if (!before)
         return;
     pointers.set(event.pointerId, event);
-    due = 2;
+    due = FRAMES;
     if (held) {
         const ray = rayAt(event), { light } = held;
         library.dragLight(light, dragged(lights.spheres.subarray(12 * light, 12 * light + 3), held.ray, ray));
@@ -158,10 +160,10 @@ for (const name of ['pointerup', 'pointercancel'])
     });
 canvas.addEventListener('wheel', (event) => {
     event.preventDefault();
-    due = 2;
+    due = FRAMES;
     camera.move(-event.deltaY / 2000);
 }, { passive: false });
-addEventListener('resize', () => { due = 2; });
+addEventListener('resize', () => { due = FRAMES; });
 addEventListener('dragover', (event) => event.preventDefault());
 addEventListener('drop', (event) => {
     event.preventDefault();
@@ -175,7 +177,7 @@ addEventListener('drop', (event) => {
 // --- the panel ---
 
 function showState() {
-    due = 2;
+    due = FRAMES;
     element('lights').min = fewest(state.scene);
     for (const id of ['scene', 'lights', 'bands', 'method', 'window', 'scale'])
         element(id).value = state[id];
@@ -247,7 +249,7 @@ canvas.addEventListener('webglcontextlost', (event) => {
 canvas.addEventListener('webglcontextrestored', () => {
     startRenderer();
     renderer.setScene(library.scene());
-    due = 2;
+    due = FRAMES;
     tell('');
 });
 
