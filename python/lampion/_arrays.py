@@ -50,6 +50,16 @@ def numbers(name: str, value: Any, core: tuple[int | None, ...] = (),
     return array
 
 
+def indices(name: str, value: Any, count: int) -> np.ndarray:
+    """value as an array of indices below count."""
+    array = np.asarray(value)
+    if array.size and array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be integers, not {array.dtype}")
+    if array.size and not (0 <= array.min() and array.max() < count):
+        raise ValueError(f"{name} must be 0 … {count - 1}")
+    return array.astype(np.uintp)
+
+
 def finite(name: str, array: np.ndarray) -> np.ndarray:
     """Refuses infinity and NaN."""
     if not np.isfinite(array).all():

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Callable
+from typing import Any, Callable, TypeVar
 
-from ._core import check, ffi, integer, lib
+from ._core import Owner, check, ffi, integer, lib
 
 
 class Host:
@@ -86,10 +86,34 @@ def read_object(ctype: str, read: Callable, data: Any) -> Any:
     return place[0]
 
 
-def written(size: int, write: Callable[[int, Any], int]) -> bytes:
-    """The bytes that a writer of the library makes of an object."""
-    data = bytearray(size)
-    check(write(size, ffi.from_buffer(data)))
-    return bytes(data)
+_Self = TypeVar("_Self", bound="Stored")
+
+
+class Stored(Owner):
+    """An object that the library writes as bytes and reads back."""
+
+    __slots__ = ()
+    _ctype: str
+    # The library's functions of this type.
+    _destroy: Any
+    _read: Any
+    _size: Any
+    _write: Any
+
+    def _create(self, create: Callable[[Any, Any], int], host: Host | None = None) -> None:
+        self._own(created(self._ctype, create, host), self._destroy)
+
+    @classmethod
+    def read(cls: type[_Self], data: bytes) -> _Self:
+        """The object of the bytes that `write` made, or of a file of them."""
+        made = cls.__new__(cls)
+        made._own(read_object(cls._ctype, cls._read, data), cls._destroy)
+        return made
+
+    def write(self) -> bytes:
+        """The object as bytes, the same on every machine."""
+        data = bytearray(self._size(self._c))
+        check(self._write(self._c, len(data), ffi.from_buffer(data)))
+        return bytes(data)
 
 

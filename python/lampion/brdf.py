@@ -182,7 +182,7 @@ def encode_rgl(brdf: Brdf, threads: int = 1) -> bytes:
 # --- tables -------------------------------------------------------------------------------------
 
 
-class Table(_core.Owner):
+class Table(_host.Stored):
     """Coefficients of f_r cos theta_i for each direction of the view (paper §4.1).
 
     Making one takes seconds to minutes on `threads`; `progress` is called with the fraction done,
@@ -202,6 +202,9 @@ class Table(_core.Owner):
     """
 
     __slots__ = ()
+    _ctype, _destroy = "lmp_brdf_table", lib.lmp_brdf_table_destroy
+    _read, _size = lib.lmp_brdf_table_read, lib.lmp_brdf_table_size
+    _write = lib.lmp_brdf_table_write
 
     def __init__(self, brdf: Brdf, bands: int = 0, *, views: int = 0, azimuths: int = 0,
                  window: str | int = "none", window_size: float = 0,
@@ -217,22 +220,8 @@ class Table(_core.Owner):
             "tolerance": _core.number("tolerance", tolerance, 0),
             "rings_max": _core.integer_or_0("rings_max", rings_max, 16, 2048)})
         source = as_brdf(brdf)
-        self._own(_host.created("lmp_brdf_table", lambda host, table:
-                                lib.lmp_brdf_table_create(host, desc, source, table),
-                                _host.Host(threads, progress)), lib.lmp_brdf_table_destroy)
-
-    @classmethod
-    def read(cls, data: bytes) -> Table:
-        """The table of the bytes of a .lmpt file."""
-        table = cls.__new__(cls)
-        table._own(_host.read_object("lmp_brdf_table", lib.lmp_brdf_table_read, data),
-                   lib.lmp_brdf_table_destroy)
-        return table
-
-    def write(self) -> bytes:
-        """The bytes of a .lmpt file."""
-        return _host.written(lib.lmp_brdf_table_size(self._c),
-                             lambda size, data: lib.lmp_brdf_table_write(self._c, size, data))
+        self._create(lambda host, table: lib.lmp_brdf_table_create(host, desc, source, table),
+                     _host.Host(threads, progress))
 
     def describe(self) -> SimpleNamespace:
         """Its bands, views, azimuths, mirrored, count, window, window_size, rings, change and

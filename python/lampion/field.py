@@ -17,7 +17,7 @@ from .material import Material
 from .shade import Surfaces, settings
 
 
-class Field(_core.Owner):
+class Field(_host.Stored):
     """A field. Any number of threads may read it at once, as long as none changes it.
 
     Parameters
@@ -38,6 +38,8 @@ class Field(_core.Owner):
     """
 
     __slots__ = ()
+    _ctype, _destroy = "lmp_field", lib.lmp_field_destroy
+    _read, _size, _write = lib.lmp_field_read, lib.lmp_field_size, lib.lmp_field_write
 
     def __init__(self, bands: int = 0, *, nodes: int | tuple[int, int, int] = 0,
                  origin: ArrayLike = 0, cell: ArrayLike = 0, light_max: int = 0,
@@ -57,23 +59,7 @@ class Field(_core.Owner):
                                                      constants.FIELD_LIGHTS_MAX)
         desc.error = _core.number_or_0("error", error, 1e-5, 1)
         desc.reach = _core.number_or_0("reach", reach, 1, 64)
-        self._adopt(_host.created("lmp_field", lambda host, field:
-                                  lib.lmp_field_create(host, desc, field)))
-
-    def _adopt(self, pointer: Any) -> None:
-        self._own(pointer, lib.lmp_field_destroy)
-
-    @classmethod
-    def read(cls, data: bytes) -> Field:
-        """The field of the bytes that `write` made."""
-        field = cls.__new__(cls)
-        field._adopt(_host.read_object("lmp_field", lib.lmp_field_read, data))
-        return field
-
-    def write(self) -> bytes:
-        """The field and its lights as bytes."""
-        return _host.written(lib.lmp_field_size(self._c),
-                             lambda size, data: lib.lmp_field_write(self._c, size, data))
+        self._create(lambda host, field: lib.lmp_field_create(host, desc, field))
 
     def describe(self) -> SimpleNamespace:
         """Its desc with the defaults filled in, reach, light_count, node_bytes and bytes."""
@@ -110,13 +96,8 @@ class Field(_core.Owner):
         host.check(lib.lmp_field_compute(host.c, self._c))
 
     def _indices(self, at: ArrayLike) -> NDArray[np.uintp]:
-        indices = np.asarray(at)
-        if indices.size and indices.dtype.kind not in "iu":
-            raise TypeError(f"at must be integers, not {indices.dtype}")
         count = lib.lmp_field_describe(self._c).light_count
-        if indices.size and not (0 <= indices.min() and indices.max() < count):
-            raise ValueError(f"at must be 0 … {count - 1}")
-        return np.ascontiguousarray(indices.reshape(-1), np.uintp)
+        return np.ascontiguousarray(_arrays.indices("at", at, count).reshape(-1))
 
     def move(self, at: ArrayLike, lights: Any, *, threads: int = 1) -> None:
         """Replace light at[i] with lights[i]; all of `at` (k,) are different."""

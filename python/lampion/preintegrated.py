@@ -22,7 +22,7 @@ def _bound(error: float) -> float:
     return _core.number_or_0("error", error, _error_min, 0.1)
 
 
-class Lobe(_core.Owner):
+class Lobe(_host.Stored):
     """The response of Phong lobes of any exponent to caps.
 
     Parameters
@@ -38,6 +38,9 @@ class Lobe(_core.Owner):
     """
 
     __slots__ = ()
+    _ctype, _destroy = "lmp_preintegrated_lobe", lib.lmp_preintegrated_lobe_destroy
+    _read, _size = lib.lmp_preintegrated_lobe_read, lib.lmp_preintegrated_lobe_size
+    _write = lib.lmp_preintegrated_lobe_write
 
     def __init__(self, bands: int = 0, *, window: str | int = "none", window_size: float = 0,
                  error: float = 0, threads: int = 1,
@@ -46,23 +49,8 @@ class Lobe(_core.Owner):
                        (_core.integer_or_0("bands", bands, 1, constants.BANDS_MAX),
                         _core.choice("window", Window, window),
                         _core.number("window_size", window_size, 0), _bound(error)))
-        self._own(_host.created("lmp_preintegrated_lobe", lambda host, lobe:
-                                lib.lmp_preintegrated_lobe_create(host, desc, lobe),
-                                _host.Host(threads, progress)),
-                  lib.lmp_preintegrated_lobe_destroy)
-
-    @classmethod
-    def read(cls, data: bytes) -> Lobe:
-        """The lobe of the bytes that `write` made."""
-        lobe = cls.__new__(cls)
-        lobe._own(_host.read_object("lmp_preintegrated_lobe", lib.lmp_preintegrated_lobe_read,
-                                    data), lib.lmp_preintegrated_lobe_destroy)
-        return lobe
-
-    def write(self) -> bytes:
-        """The lobe as bytes, the same on every machine."""
-        return _host.written(lib.lmp_preintegrated_lobe_size(self._c), lambda size, data:
-                             lib.lmp_preintegrated_lobe_write(self._c, size, data))
+        self._create(lambda host, lobe: lib.lmp_preintegrated_lobe_create(host, desc, lobe),
+                     _host.Host(threads, progress))
 
     def eval(self, exponent: ArrayLike, one_minus_cos: ArrayLike,
              cosine: ArrayLike) -> NDArray[np.float32]:
@@ -93,7 +81,7 @@ class Lobe(_core.Owner):
         return info
 
 
-class Brdf(_core.Owner):
+class Brdf(_host.Stored):
     """The response of an isotropic BRDF's table to caps.
 
     Parameters
@@ -109,29 +97,18 @@ class Brdf(_core.Owner):
     """
 
     __slots__ = ()
+    _ctype, _destroy = "lmp_preintegrated_brdf", lib.lmp_preintegrated_brdf_destroy
+    _read, _size = lib.lmp_preintegrated_brdf_read, lib.lmp_preintegrated_brdf_size
+    _write = lib.lmp_preintegrated_brdf_write
 
     def __init__(self, table: Table, *, error: float = 0, bytes_max: int = 0, threads: int = 1,
                  progress: Callable[[float], Any] | None = None):
         desc = ffi.new("lmp_preintegrated_brdf_desc *",
                        (_bound(error), _core.integer("bytes_max", bytes_max, 0, 2**63 - 1)))
         source = as_table(table)
-        self._own(_host.created("lmp_preintegrated_brdf", lambda host, brdf:
-                                lib.lmp_preintegrated_brdf_create(host, desc, source, brdf),
-                                _host.Host(threads, progress)),
-                  lib.lmp_preintegrated_brdf_destroy)
-
-    @classmethod
-    def read(cls, data: bytes) -> Brdf:
-        """The BRDF of the bytes that `write` made."""
-        brdf = cls.__new__(cls)
-        brdf._own(_host.read_object("lmp_preintegrated_brdf", lib.lmp_preintegrated_brdf_read,
-                                    data), lib.lmp_preintegrated_brdf_destroy)
-        return brdf
-
-    def write(self) -> bytes:
-        """The BRDF as bytes, the same on every machine."""
-        return _host.written(lib.lmp_preintegrated_brdf_size(self._c), lambda size, data:
-                             lib.lmp_preintegrated_brdf_write(self._c, size, data))
+        self._create(lambda host, brdf:
+                     lib.lmp_preintegrated_brdf_create(host, desc, source, brdf),
+                     _host.Host(threads, progress))
 
     def eval(self, cos_theta_o: ArrayLike, axis: ArrayLike,
              one_minus_cos: ArrayLike) -> NDArray[np.float32]:

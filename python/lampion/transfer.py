@@ -166,17 +166,13 @@ class Transfer(_core.Owner):
                    normal: ArrayLike) -> NDArray[np.float32]:
         """Indirect irradiance (…, 3), W·m⁻², at points (…, 3) of surfaces with normals (…, 3),
         unit, to which surfels (…) are the nearest."""
-        indices = np.asarray(surfel)
-        if indices.size and indices.dtype.kind not in "iu":
-            raise TypeError(f"surfel must be integers, not {indices.dtype}")
         count = lib.lmp_transfer_describe(self._c).surfel_count
-        if indices.size and not (0 <= indices.min() and indices.max() < count):
-            raise ValueError(f"surfel must be 0 … {count - 1}")
+        indices = _arrays.indices("surfel", surfel, count)
 
         def call(surfel: Any, point: Any, normal: Any, rgb: Any) -> None:
             rgb[0] = lib.lmp_transfer_irradiance(self._c, surfel[0], point[0], normal[0])
 
-        return _arrays.each(None, (3,), call, ("surfel", indices.astype(np.uintp), 0, "size_t *"),
+        return _arrays.each(None, (3,), call, ("surfel", indices, 0, "size_t *"),
                             ("point", _arrays.points("point", point), 1, "lmp_vec3 *"),
                             ("normal", _arrays.directions("normal", normal), 1, "lmp_vec3 *"),
                             ctype="lmp_rgb *")
