@@ -7,7 +7,8 @@ import { createRequire } from 'node:module';
 import { LampionError, compileLampion, load } from 'lampion';
 import { lampion as glsl } from 'lampion/shaders';
 import { lampionWgsl } from 'lampion/wgsl';
-import { functions } from './node_modules/lampion/api.js';
+import { functions, structs as layouts } from './node_modules/lampion/api.js';
+import { extents, memberExtents } from './node_modules/lampion/extents.js';
 
 const close = (value, expected, bound, what) => assert.ok(Math.abs(value - expected) <= bound, `${what}: ${value}, not ${expected}`);
 const alike = (values, expected, what) => expected.forEach((one, i) => close(values[i], one, 1e-6, what));
@@ -336,6 +337,14 @@ const sphere = { position: [0, 0, 3], radius: 1, radiance: [1, 2, 4] };
     lmp.field_copy_nodes(field, 0, 64, nodes);
     lmp.field_copy_lists(field, lmp.field_copy_lists(field, 0, begin, near), begin, new Uint32Array(64));
     assert.equal(lmp.field_coarser_level(field), null);
+    lmp.field_destroy(null);
+    const fine = lmp.field_create({ bands: 1, nodes: [16, 16, 16], light_max: 1 }), coarse = lmp.field_coarser_level(fine);
+    assert.equal(lmp.field_describe(coarse).desc.cell.x, 2);
+    assert.throws(() => lmp.field_destroy(coarse), /belongs to another object/);
+    lmp.field_destroy(fine);
+    const odd = lmp.field_create({ bands: 1, nodes: [3, 3, 3], light_max: 1 });
+    lmp.field_copy_lists(odd, 1, new Uint32Array(3), near); // one block, and everywhere
+    lmp.field_destroy(odd);
     const bytes = new Uint8Array(lmp.field_size(field));
     lmp.field_write(field, bytes.length, bytes);
     lmp.field_destroy(lmp.field_read(bytes, bytes.length));
@@ -412,6 +421,20 @@ const missing = [...Object.keys(functions), 'sh_project_function', 'sh_project_f
     .filter((name) => !called.has(name));
 assert.deepEqual(missing, [], 'functions that nothing calls');
 
+// Every array that is passed has a length to be checked against.
+{
+    const numbers = ['i8', 'u8', 'i16', 'u16', 'i32', 'u32', 'f32', 'f64'], described = ['vec3_array', 'float_array', 'sh_array', 'rgb_array'];
+    const isArray = (type) => described.includes(type) || numbers.includes(type.to);
+    for (const [name, { parameters }] of Object.entries(functions))
+        for (const [i, [parameter, type, how]] of parameters.entries())
+            if (how === 'given' && (isArray(type) || layouts[type.to] && /count$/.test(parameters[i + 1]?.[0])))
+                assert.ok(extents[`${name}.${parameter}`] ?? extents[parameter], `${name}: nothing says how long ${parameter} is`);
+    for (const [name, { members }] of Object.entries(layouts))
+        if (!described.includes(name))
+            for (const [member, type] of members.filter(([, type]) => isArray(type) || layouts[type.to]))
+                assert.ok(memberExtents[name]?.[member], `lmp_${name}: nothing says how long ${member} is`);
+}
+
 // --- wrong arguments: an exception that names the fault, and nothing lost ------------------------
 {
     const sh = floats(9), wrong = [
@@ -431,6 +454,9 @@ assert.deepEqual(missing, [], 'functions that nothing calls');
         [() => lmp.sh_eval_n(3, floats(6), 2, { at: floats(18), stride: 40 }), /sh.at has 18 values, and 19 are needed/],
         [() => lmp.sh_eval_n(3, floats(6), 2, { at: floats(18), stride: 3 }), /stride is not a multiple of 4/],
         [() => lmp.sh_eval_n(3, floats(6), -1, floats(18)), /count is -1/],
+        [() => lmp.sh_project_latlong(3, { pixels: floats(24), width: 4, height: 2, channels: 3 }, sh), /sh has 9 values, and 27 are needed/],
+        [() => lmp.sh_project_latlong(3, { pixels: floats(23), width: 4, height: 2, channels: 3 }, floats(27)), /pixels has 92 values, and 96 are needed/],
+        [() => lmp.light_project(3, sphere, 2, [0, 0, 0], floats(27)), /lights has 1 elements, and 2 are needed/],
         [() => lmp.light_project(3, [sphere], 2, [0, 0, 0], floats(27)), /lights has 1 elements, and 2 are needed/],
         [() => lmp.light_project(3, [{ ...sphere, radius: 'big' }], 1, [0, 0, 0], floats(27)), /lights\[0\].radius is not a number/],
         [() => lmp.light_project(3, [{ radious: 1 }], 1, [0, 0, 0], floats(27)), /radious is not a member/],

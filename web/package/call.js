@@ -4,13 +4,14 @@
 // Arguments live in C's memory while a call runs: numbers in arrays of that memory are passed as they are, all else is
 // copied to a stack of its own (Stack) and, where C writes, back.
 import { constants, functions, structs } from './api.js';
-import { extents, memberExtents, nullable, spread } from './extents.js';
+import { extents, memberExtents, spread } from './extents.js';
+import { nullable, wholes } from './rules.js';
 
 const kinds = {
     i8: Int8Array, u8: Uint8Array, i16: Int16Array, u16: Uint16Array, i32: Int32Array, u32: Uint32Array, f32: Float32Array, f64: Float64Array,
 };
 const plainFloats = (name) => structs[name]?.members.every(([, type]) => type === 'f32');
-const HIDDEN = new Set(['host', 'scratch', 'parse_error']);
+const access = (type) => kinds[type].name.replace('Array', ''); // of DataView's functions
 const arrays = new Set(['vec3_array', 'float_array', 'rgb_array', 'sh_array']);
 
 export class LampionError extends Error {
@@ -85,16 +86,10 @@ export class Caller {
 
     read(type, at, context = {}) {
         const { view } = this;
-        switch (type) {
-        case 'bool': return view.getUint8(at) !== 0;
-        case 'i8': return view.getInt8(at);
-        case 'u8': return view.getUint8(at);
-        case 'u16': return view.getUint16(at, true);
-        case 'i32': return view.getInt32(at, true);
-        case 'u32': return view.getUint32(at, true);
-        case 'f32': return view.getFloat32(at, true);
-        case 'f64': return view.getFloat64(at, true);
-        }
+        if (type === 'bool')
+            return view.getUint8(at) !== 0;
+        if (kinds[type])
+            return view[`get${access(type)}`](at, true);
         if (type.of)
             return Array.from({ length: type.count }, (none, i) => this.read(type.of, at + i * this.size(type.of)));
         if (type.to) {
@@ -125,15 +120,7 @@ export class Caller {
         if (kinds[type]) {
             if (typeof value !== 'number')
                 throw new TypeError(`${name} is not a number`);
-            switch (type) {
-            case 'i8': return view.setInt8(at, value);
-            case 'u8': return view.setUint8(at, value);
-            case 'u16': return view.setUint16(at, value, true);
-            case 'i32': return view.setInt32(at, value, true);
-            case 'u32': return view.setUint32(at, value, true);
-            case 'f32': return view.setFloat32(at, value, true);
-            default: return view.setFloat64(at, value, true);
-            }
+            return view[`set${access(type)}`](at, value, true);
         }
         if (type.of) {
             if (value?.length === undefined || value.length > type.count)
@@ -159,13 +146,10 @@ export class Caller {
         for (const key in value)
             if (!members.some(([one]) => one === key))
                 throw new TypeError(`${name}.${key} is not a member of lmp_${type}`);
-        const known = (member) => value[member] ?? 0;
-        for (const [one, member, offset] of members) {
-            if (value[one] === undefined)
-                continue;
-            const count = memberExtents[type]?.[one]?.(new Proxy(value, { get: (all, key) => known(key) }), extent);
-            this.write(member, at + offset, value[one], `${name}.${one}`, count);
-        }
+        const whole = memberExtents[type] && Object.fromEntries(members.map(([one]) => [one, value[one] ?? 0]));
+        for (const [one, member, offset] of members)
+            if (value[one] !== undefined)
+                this.write(member, at + offset, value[one], `${name}.${one}`, memberExtents[type]?.[one]?.(whole, extent));
     }
 
     // An array of vectors, numbers, colors or coefficients: itself, or with strides.
@@ -218,13 +202,17 @@ export class Caller {
         return at;
     }
 
+    enough(length, needed, name) {
+        if (length < needed)
+            throw new RangeError(`${name} has ${length} elements, and ${needed} are needed`);
+    }
+
     pointer(type, value, name, extent) {
         const { to, constant } = type;
         if (value instanceof Structs) {
             if (value.type !== to)
                 throw new TypeError(`${name} holds lmp_${value.type}, not lmp_${to}`);
-            if (typeof extent === 'number' && value.length < extent)
-                throw new RangeError(`${name} has ${value.length} elements, and ${extent} are needed`);
+            this.enough(value.length, extent, name);
             return value.pointer;
         }
         if (to === 'void') {
@@ -239,9 +227,8 @@ export class Caller {
         if (kinds[to])
             return this.numbers(to, value, name, extent, constant);
         if (to.to) { // pointers to objects
+            this.enough(value.length, extent, name);
             const at = this.stack.take(4 * value.length);
-            if (value.length < extent)
-                throw new RangeError(`${name} has ${value.length} elements, and ${extent} are needed`);
             value.forEach((one, i) => this.view.setUint32(at + 4 * i, this.pointer(to, one, `${name}[${i}]`), true));
             return at;
         }
@@ -255,8 +242,8 @@ export class Caller {
         if (value instanceof Float32Array && plainFloats(to))
             return this.numbers('f32', value, name, structs[to].size / 4 * extent, constant);
         const list = Array.isArray(value) && (typeof value[0] !== 'number' || !plainFloats(to)) ? value : [value];
-        if (list === value && list.length < extent)
-            throw new RangeError(`${name} has ${list.length} elements, and ${extent} are needed`);
+        if (!wholes.has(to))
+            this.enough(list.length, extent, name);
         const { size } = structs[to], at = this.stack.take(size * list.length);
         this.bytes.fill(0, at, at + size * list.length);
         list.forEach((one, i) => this.writeStruct(to, at + i * size, one, list === value ? `${name}[${i}]` : name, extent));
@@ -269,17 +256,15 @@ export class Caller {
     // here, and without what is only written at the end, which it returns.
     bind(name, { result, parameters }) {
         const f = this.c[`lmp_${name}`];
-        const given = parameters.filter(([, type]) => !HIDDEN.has(type.to));
-        let count = given.length;
-        const outs = new Set();
-        for (; count && this.isOut(given[count - 1][1]); count--)
-            outs.add(given[count - 1][0]);
+        const given = parameters.filter(([, , how]) => how === 'given').map(([parameter]) => parameter);
         const destroys = name.endsWith('_destroy');
         const extentOf = (parameter) => extents[`${name}.${parameter}`] ?? extents[parameter];
         return (...values) => {
-            if (values.length !== count)
-                throw new TypeError(`${name} takes ${count} arguments, not ${values.length}`);
-            const args = Object.fromEntries(values.map((value, i) => [given[i][0], value]));
+            if (values.length !== given.length)
+                throw new TypeError(`${name} takes ${given.length} arguments, not ${values.length}`);
+            if (destroys && values[0]?.borrowed)
+                throw new TypeError(`${name}: ${given[0]} belongs to another object`);
+            const args = Object.fromEntries(values.map((value, i) => [given[i], value]));
             const before = this.after;
             this.after = [];
             try {
@@ -288,12 +273,12 @@ export class Caller {
                     let error = 0, returned = 0;
                     if (structs[result])
                         passed.push(returned = this.stack.take(structs[result].size));
-                    for (const [parameter, type] of parameters) {
-                        if (type.to === 'parse_error')
-                            error = this.stack.take(structs.parse_error.size);
-                        if (HIDDEN.has(type.to)) {
+                    for (const [parameter, type, how] of parameters) {
+                        if (how === 'hidden') {
+                            if (type.to === 'parse_error')
+                                error = this.stack.take(structs.parse_error.size);
                             passed.push(type.to === 'host' ? 0 : type.to === 'scratch' ? this.lendScratch() : error);
-                        } else if (outs.has(parameter)) {
+                        } else if (how === 'out') {
                             const at = this.stack.take(this.size(type.to));
                             this.bytes.fill(0, at, at + this.size(type.to));
                             written.push([type.to, at]);
@@ -305,8 +290,8 @@ export class Caller {
                     const value = f(...passed);
                     this.after.forEach((copy) => copy());
                     if (result === 'status' && value)
-                        throw new LampionError(value, `${name}: ${error && this.read('parse_error', error).text.length ? this.errorText(error) : this.string(this.c.lmp_result_text(value))}`);
-                    if (destroys)
+                        throw new LampionError(value, `${name}: ${error ? this.errorText(error) : this.string(this.c.lmp_result_text(value))}`);
+                    if (destroys && values[0])
                         values[0].pointer = 0;
                     const made = written.map(([type, at]) => type.to ? this.handle(type.to, this.view.getUint32(at, true), args) : this.read(type, at));
                     if (made.length)
@@ -317,10 +302,6 @@ export class Caller {
                 this.after = before;
             }
         };
-    }
-
-    isOut({ to, constant }) {
-        return to && !constant && (to.to || structs[to]);
     }
 
     errorText(at) {
@@ -379,7 +360,7 @@ export class Caller {
         const count = extents[`${name}.result`]?.(args, this.api);
         if (count !== undefined)
             return this.list(result.to, value, count);
-        return structs[result.to] ? this.read(result.to, value) : new Handle(result.to, value);
+        return structs[result.to] ? this.read(result.to, value) : Object.assign(new Handle(result.to, value), { borrowed: true });
     }
 }
 

@@ -4,6 +4,8 @@
 //
 // For a pointer to numbers it is their count, for one to structs and for arrays of vectors or colors that of
 // elements, and for coefficients of a batch [values of an element, elements].
+import { constants } from './api.js';
+
 const square = ({ bands }) => bands * bands;
 const planes = (count) => ({ bands }) => count * bands * bands;
 const each = (values) => ({ bands, count, point_count }) => [values * bands * bands, count ?? point_count];
@@ -15,6 +17,8 @@ const pointwise = ({ point_count, count }) => point_count ?? count;
 const lightwise = ({ light_count, sphere_count, count }) => light_count ?? sphere_count ?? count;
 const sized = ({ size }) => size;
 const fielded = ({ field, count }, lmp) => [3 * lmp.field_describe(field).desc.bands ** 2, count];
+const multiplied = ({ product }) => product.bands ** 2;
+const paired = (args) => spread(square(args), args.count, args);
 
 // The length that an array must have for `count` elements of `values` numbers (lmp_sh_layout).
 export function spread(values, count, { stride = 0, layout = 0 } = {}) {
@@ -34,8 +38,10 @@ export const extents = {
     bytes: sized, data: sized, lighting: ({ transfer }, lmp) => lmp.transfer_describe(transfer),
 
     'sh_make_rotation_double.rotation': number(4), 'brdf_eval_double.rgb': number(3),
+    'sh_project_latlong.sh': ({ bands, image: { channels = 0 } }) => channels * bands * bands,
+    'sh_project_cubemap.sh': ({ bands, map: { channels = 0 } }) => channels * bands * bands,
     'sh_eval_n.sh': each(1), 'sh_eval_gradient_n.sh': each(1), 'sh_eval_gradient_n.gradient': each(3),
-    'sh_dot_n.a': (args) => spread(square(args), args.count, args), 'sh_dot_n.b': (args) => spread(square(args), args.count, args), 'sh_dot_n.dots': asked,
+    'sh_dot_n.a': paired, 'sh_dot_n.b': paired, 'sh_dot_n.dots': asked,
     'sh_rotate_n.rotated': each(1), 'sh_rotate_n.sh': (args) => spread(square(args), args.count, args.rotated),
     'sh_pack_half_n.values': asked, 'sh_pack_half_n.halves': asked, 'sh_unpack_half_n.values': asked, 'sh_unpack_half_n.halves': asked,
     'sphere_project_zonal_n.radii': asked, 'sphere_project_zonal_n.distances': asked,
@@ -44,11 +50,10 @@ export const extents = {
     'sphere_project_all_n.sh': ({ bands, sphere_count, point_count }) => [bands * bands, sphere_count * point_count],
     'sphere_sum_n.sh': each(3), 'sphere_sum_gradient_n.sh': each(3), 'sphere_sum_gradient_n.gradient': each(9),
     'light_project.sh': planes(3), 'light_project_n.sh': each(3), 'light_add_n.sh': each(3),
-    'light_copy_area_texels.texels': number(44), 'lobe_copy_ggx_texels.texels': number(4 * 5152),
+    'light_copy_area_texels.texels': number(4 * constants.AREA_TEXELS), 'lobe_copy_ggx_texels.texels': number(4 * constants.GGX_TEXELS),
     'probe_irradiance.sh': planes(3), 'probe_irradiance_n.sh': planes(3), 'probe_make_constants.sh': planes(3), 'probe_export.sh': planes(3),
     'probe_export.values': number(27), 'probe_make_positive_window.sh': ({ bands, planes: count }) => count * bands * bands,
-    'sh_multiply.a': ({ product }) => product.bands ** 2, 'sh_multiply.b': ({ product }) => product.bands ** 2,
-    'sh_multiply.c': ({ product }) => product.bands ** 2,
+    'sh_multiply.a': multiplied, 'sh_multiply.b': multiplied, 'sh_multiply.c': multiplied,
     'brdf_table_interpolate.sh': ({ table }, lmp) => 3 * lmp.brdf_table_describe(table).count, 'brdf_project.sh': planes(3),
     'brdf_table_coefficients.result': ({ table }, lmp) => {
         const { azimuths, views, count } = lmp.brdf_table_describe(table);
@@ -58,14 +63,14 @@ export const extents = {
     'field_eval_n.sh': fielded, 'field_eval_lobe_n.lambda': ({ field }, lmp) => lmp.field_describe(field).desc.bands,
     'field_copy_nodes.texels': ({ field, count }, lmp) => 12 * lmp.field_describe(field).desc.bands ** 2 * count,
     'field_copy_lists.begin': ({ field, capacity }, lmp) =>
-        capacity && lmp.field_describe(field).desc.nodes.reduce((product, nodes) => product * Math.ceil(nodes / 2), 1) + 2,
+        capacity && lmp.field_describe(field).desc.nodes.reduce((product, nodes) => product * Math.floor(nodes / 2), 1) + 2,
     'transfer_eval_probe_n.sh': ({ transfer, count }, lmp) => [3 * lmp.transfer_describe(transfer).bands ** 2, count],
     'field_find_near.lights': ({ capacity }) => capacity, 'field_find_near.fractions': ({ capacity }) => capacity,
     'field_move_n.at': asked, 'field_move_n.lights': asked, 'field_copy_lists.lights': ({ capacity }) => capacity,
 };
 
-// What pointers within structs lead to, by the other members.
-const samples = ({ count }) => count;
+// What pointers within structs lead to, by the other members, and by what is known of the struct itself (`extents`).
+const beside = (all, count) => count;
 const pixel = ({ texel }) => texel ? 2 : 4;
 const image = (width, height) => (map) => {
     const texel = map.texel_stride || map.channels * pixel(map), channel = map.channel_stride || pixel(map);
@@ -76,13 +81,13 @@ export const memberExtents = {
     latlong: { pixels: image(({ width }) => width, ({ height }) => height) },
     cubemap: { faces: image(edge, edge) },
     environment: { sh: ({ bands }) => 3 * bands * bands },
-    probe_samples: { directions: samples, values: samples, weights: samples },
-    spheres: { center: (all, count) => count, radius: (all, count) => count, radiance: (all, count) => count },
+    probe_samples: { directions: asked, values: asked, weights: asked },
+    spheres: { center: beside, radius: beside, radiance: beside },
     surfaces: {
-        position: (all, count) => count, normal: (all, count) => count, view: (all, count) => count, tangent: (all, count) => count,
-        coat_normal: (all, count) => count, material: ({ material_stride }, count) => material_stride ? count : 1,
+        position: beside, normal: beside, view: beside, tangent: beside, coat_normal: beside,
+        material: ({ material_stride }, count) => material_stride ? count : 1,
     },
-    sheen_layer: { white: () => 16 },
+    sheen_layer: { white: number(constants.SHEEN_TABLES) },
     transfer_desc: {
         surfels: ({ surfel_count }) => surfel_count, hits: ({ surfel_count, ray_count }) => surfel_count * ray_count,
         links: ({ surfel_count, link_count }) => surfel_count * link_count, probe_directions: ({ probe_ray_count }) => probe_ray_count,
@@ -92,13 +97,10 @@ export const memberExtents = {
         direct: (all, { surfel_count }) => surfel_count, emission: (all, { surfel_count }) => surfel_count, sky: (all, { sky_count }) => sky_count,
     },
     preintegrated_lobe_info: {
-        cells: ({ cell_count }) => cell_count, coefficients: ({ pair_count }) => 2 * pair_count, remap: () => 321,
+        cells: ({ cell_count }) => cell_count, coefficients: ({ pair_count }) => 2 * pair_count, remap: number(constants.PREINTEGRATED_LOBE_REMAP_COUNT),
     },
     preintegrated_brdf_info: {
         view_remap: ({ view_steps }) => view_steps + 1, cap_remap: ({ cap_steps }) => cap_steps + 1, ambient: ({ view_count }) => view_count,
         slices: ({ view_count, cap_count }) => view_count * cap_count, texels: ({ texel_count }) => 3 * texel_count,
     },
 };
-
-// What may be null: what C has a meaning for.
-export const nullable = new Set(['visibility', 'settings', 'desc', 'red', 'green', 'blue', 'lighting', 'sh_eval_gradient_double.gradient']);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // generate.mjs INCLUDE OUT: reads clang's tree of the public headers, as JSON, from standard input and the headers'
-// constants from the folder INCLUDE, and writes OUT/api.js, by which call.js passes arguments, its types, OUT/api.d.ts, and the symbols to export.
+// constants from the folder INCLUDE, and writes OUT/api.js, by which call.js passes arguments, its types, OUT/api.d.ts, and the
+// symbols to export, OUT/exports.txt.
 //
 // Layouts are those of wasm32: every member is aligned to its size, pointers and size_t have 4 bytes.
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { nullable } from './extents.js';
+import { nullable, wholes } from './rules.js';
 
 const [include, out] = process.argv.slice(2);
 const { inner: nodes } = JSON.parse(readFileSync(0));
 const plain = (name) => name.replace(/^(lmp_|LMP_)/, '');
-const sizes = { bool: 1, i8: 1, u8: 1, i16: 2, u16: 2, i32: 4, u32: 4, f32: 4, pointer: 4, f64: 8 };
+const sizes = { bool: 1, i8: 1, u8: 1, i16: 2, u16: 2, i32: 4, u32: 4, f32: 4, f64: 8 };
 const scalars = {
     _Bool: 'bool', bool: 'bool', 'signed char': 'i8', char: 'u8', uint8_t: 'u8', int16_t: 'i16', uint16_t: 'u16', int: 'i32', uint32_t: 'u32', 'unsigned int': 'u32',
     size_t: 'u32', float: 'f32', double: 'f64',
@@ -28,7 +29,7 @@ function textOf(node) {
     return comment ? gather(comment).split('\n').map((line) => line.replace(/^ *\*? ?/, '').trimEnd()).join('\n').trim() : '';
 }
 
-// A type as call.js reads it: a scalar, the name of a struct, or one of [type, count], { to, constant }.
+// A type as call.js reads it: a scalar, the name of a struct, an array { of, count } or a pointer { to, constant }.
 function typeOf(text) {
     text = text.replace(/^(struct|enum) /, '').trim();
     const array = text.match(/^(.*?) ?\[(\d+)\](.*)$/);
@@ -110,8 +111,17 @@ for (const [, name, text] of macros) {
 
 const opaque = (type) => typeof type === 'string' && !sizes[type] && !records[type] && type !== 'void' && type !== 'char';
 const callable = functions.filter(({ name }) => !special.has(plain(name))).map((node) => {
-    const parameters = (node.inner ?? []).filter(({ kind }) => kind === 'ParmVarDecl').map(({ name, type }) =>
-        ({ name, type: typeOf(type.qualType) }));
+    const parameters = (node.inner ?? []).filter(({ kind }) => kind === 'ParmVarDecl').map(({ name, type: { qualType } }) => {
+        const type = typeOf(qualType);
+        return { name, type, how: hidden.has(type.to) ? 'hidden' : 'given' };
+    });
+    // What is only written and comes last is returned: objects, and structs.
+    for (const parameter of parameters.filter(({ how }) => how === 'given').reverse()) {
+        const { to, constant } = parameter.type;
+        if (!to || constant || !(to.to || records[to]))
+            break;
+        parameter.how = 'out';
+    }
     const text = node.type.qualType.replace(/ ?\(.*/, '');
     const status = text === 'lmp_result' && node.name !== 'lmp_result_text';
     return { name: plain(node.name), parameters, result: status ? 'status' : text === 'void' ? 'void' : typeOf(text), comment: textOf(node) };
@@ -129,7 +139,7 @@ ${Object.entries(records).map(([name, { size, members }]) =>
 };
 export const functions = {
 ${callable.map(({ name, parameters, result }) =>
-        `    ${name}: { result: ${code(result)}, parameters: ${code(parameters.map(({ name: one, type }) => [one, type]))} },`).join('\n')}
+        `    ${name}: { result: ${code(result)}, parameters: ${code(parameters.map(({ name: one, type, how }) => [one, type, how]))} },`).join('\n')}
 };
 `);
 
@@ -148,6 +158,9 @@ function returnedType(name) {
     }
     return `${title(name)}Result`;
 }
+
+// Structs that describe arrays, which have types of their own below.
+const arrays = { vec3_array: 'Vec3Array', float_array: 'FloatArray', sh_array: 'ShArray', rgb_array: 'RgbArray' };
 
 // many: whether structs are counted by the next argument.
 function scriptType(type, given, many = true) {
@@ -177,28 +190,23 @@ function scriptType(type, given, many = true) {
         return returnedType(type);
     if (type === 'vec3' || type === 'rgb' || type === 'quat')
         return `${title(type)} | ArrayLike<number>`;
-    return { vec3_array: 'Vec3Array', float_array: 'FloatArray', sh_array: 'ShArray', rgb_array: 'RgbArray' }[type] ?? title(type);
+    return arrays[type] ?? title(type);
 }
 
 const comment = (text, indent = '') =>
     text ? `${indent}/**\n${text.replaceAll('*/', '*').split('\n').map((line) => `${indent} * ${line}`.trimEnd()).join('\n')}\n${indent} */\n` : '';
-const made = ({ to, constant }) => to && !constant && (to.to || records[to]);
 
 // An object, or null; numbers, or a struct.
 const resultType = (result) => result.to && opaque(result.to) ? `${title(result.to)} | null`
     : result.to && records[result.to] && result.to !== 'light' ? returnedType(result.to) : scriptType(result, false);
 
-// What is only written and comes last is returned: objects, and structs.
 function signature({ name, parameters, result }) {
-    const given = parameters.filter(({ type }) => !hidden.has(type.to));
-    const outs = [];
-    while (given.length && made(given.at(-1).type))
-        outs.unshift(given.pop());
+    const [given, outs] = ['given', 'out'].map((wanted) => parameters.filter(({ how }) => how === wanted));
     const kind = outs.map(({ type }) => type.to.to ? title(type.to.to) : returnedType(type.to));
     const what = outs.length === 1 ? kind[0] : outs.length ? `[${kind.join(', ')}]`
         : result === 'void' || result === 'status' ? 'void' : result.to === 'char' ? 'string | null' : resultType(result);
     const lists = given.map(({ name: one, type }, i) => {
-        const many = /count$/.test(given[i + 1]?.name) && !['spheres', 'surfaces'].includes(type.to);
+        const many = /count$/.test(given[i + 1]?.name) && !wholes.has(type.to);
         const may = type.to && (nullable.has(one) || nullable.has(`${name}.${one}`) || one === 'lights');
         return `${one}: ${scriptType(type, true, many)}${may ? ' | null' : ''}`;
     });
@@ -209,7 +217,7 @@ const signatures = callable.map((one) => `${comment(one.comment, '    ')}    ${o
 const declared = [...returned].map((name) => `export interface ${title(name)}Result {
 ${records[name].members.map(({ name: one, type }) => `    ${one}: ${scriptType(type, false)}${type.to && type.to !== 'char' ? ' | null' : ''};`).join('\n')}
 }`);
-const simple = new Set(['vec3_array', 'float_array', 'sh_array', 'rgb_array', ...hidden]);
+const simple = new Set([...Object.keys(arrays), ...hidden]);
 const handles = [...new Set(callable.flatMap(({ parameters }) => parameters.map(({ type }) => type.to?.to ?? type.to).filter(opaque)))];
 const written = handles.map((name) => `export interface ${title(name)} { readonly kind: '${name}' }`);
 writeFileSync(`${out}/api.d.ts`, `// Made from Lampion's headers by generate.mjs.

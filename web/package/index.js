@@ -48,7 +48,7 @@ export async function compileLampion({ source, simd = WebAssembly.validate(SIMD)
 export async function load({ memory: bytes = 64 << 20, source, simd } = {}) {
     if (!(bytes >= MEMORY_MIN && bytes <= MEMORY_MAX))
         throw new RangeError(`load: memory is ${bytes} bytes, not ${MEMORY_MIN} to ${MEMORY_MAX}`);
-    const module = await compileLampion({ source, ...simd === undefined ? {} : { simd } });
+    const module = await compileLampion({ source, simd });
     const pages = Math.ceil(bytes / PAGE);
     const memory = new WebAssembly.Memory({ initial: pages, maximum: pages });
     const projected = []; // functions that are being projected, the innermost last
@@ -82,15 +82,16 @@ export async function load({ memory: bytes = 64 << 20, source, simd } = {}) {
             throw new RangeError(`${name}: bands is not 1 to ${constants.BANDS_MAX}, or nodes not a count`);
         if (!(sh instanceof Float32Array && sh.length >= planes * bands * bands))
             throw new RangeError(`${name}: sh is not a Float32Array of ${planes * bands * bands} values`);
-        const at = c.malloc(4 * planes * bands * bands);
-        projected.push(f);
-        try {
-            c[planes === 1 ? 'lampion_project' : 'lampion_project_rgb'](bands, nodes, at);
+        caller.stack.within(() => {
+            const at = caller.stack.take(4 * planes * bands * bands);
+            projected.push(f);
+            try {
+                c[planes === 1 ? 'lampion_project' : 'lampion_project_rgb'](bands, nodes, at);
+            } finally {
+                projected.pop();
+            }
             sh.set(new Float32Array(memory.buffer, at, planes * bands * bands));
-        } finally {
-            projected.pop();
-            c.free(at);
-        }
+        });
     };
     const encode = (name) => (brdf) => caller.stack.within(() => {
         if (!(brdf instanceof Handle && brdf.kind === 'brdf' && brdf.pointer))

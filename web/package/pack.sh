@@ -17,11 +17,9 @@ rm -rf "$folder"
 mkdir -p "$folder/shaders" "$out"
 cp "$build/simd/web/package/lampion.wasm" "$build/scalar/web/package/lampion-scalar.wasm" \
     "$build/simd/web/package/api.js" "$build/simd/web/package/api.d.ts" "$folder"
-cp web/package/index.js web/package/index.d.ts web/package/call.js web/package/extents.js web/package/three.js \
-    web/package/three.d.ts web/package/spheres.js web/package/patches.js web/package/webgpu.js web/package/webgpu.d.ts web/package/probes.js web/package/probes.d.ts web/package/worker.js LICENSE "$folder"
+cp web/package/*.js web/package/*.d.ts LICENSE "$folder" # and no .mjs, which builds
 cp shaders/lampion/*.glsl "$folder/shaders"
 cp "$build/simd/variants/wgsl/lampion.js" "$folder/wgsl.js"
-cp web/package/wgsl.d.ts "$folder"
 # The page of the documents, without links to others and without notes for its test.
 sed -E '/^<!-- .* -->$/d; s/\[([^]]*)\]\((\.\.\/|[a-z])[^)]*\)/\1/g' docs/npm.md >"$folder/README.md"
 sed "s/\"0.0.0\"/\"$version\"/" web/package/package.json >"$folder/package.json"

@@ -11,7 +11,7 @@ export interface ProbeGridOptions {
     size: [number, number, number];
 }
 
-/** A grid of probes that is lit anew every frame, for any renderer. */
+/** A grid of probes that is relit every frame, for any renderer. */
 export class ProbeGrid {
     constructor(lmp: Lampion, options: ProbeGridOptions);
     readonly count: number;

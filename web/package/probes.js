@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// probes.js - a grid of probes that is lit anew every frame, for any renderer: the texels of a 3D texture.
+// probes.js - a grid of probes that is relit every frame, for any renderer: the texels of a 3D texture.
 //
 // A probe holds its irradiance as lmp_probe_constants, SLABS vectors of four, which probe.glsl evaluates. The texture has
 // size[0] by size[1] texels in SLABS * size[2] layers: those of the first vector, then those of the second, and so on.

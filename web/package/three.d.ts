@@ -24,7 +24,7 @@ export class SphereLights {
     dispose(): void;
 }
 
-/** A grid of probes in a box, lit anew by update(): diffuse light of many lights, at one cost per pixel. */
+/** A grid of probes in a box, relit by update(): diffuse light of many lights, at one cost per pixel. */
 export class LightProbeVolume {
     constructor(lmp: Lampion, box: Box3, size: [number, number, number], options?: { worker?: Worker });
     add<T extends Material>(material: T): T;

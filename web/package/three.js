@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lampion in three.js: sphere lights for MeshStandardMaterial (SphereLights), grids of probes that are lit anew every
+// Lampion in three.js: sphere lights for MeshStandardMaterial (SphereLights), grids of probes that are relit every
 // frame (LightProbeVolume), and lights and rotations for Gaussian splats (SplatLights). WebGL 2.
 import {
     Data3DTexture, DataTexture, FloatType, HalfFloatType, LightProbe, LinearFilter, RGBAFormat, Vector3,
@@ -97,7 +97,7 @@ export class SphereLights {
     }
 }
 
-// A grid of probes in a box (ProbeGrid), lit anew by update(): diffuse light of many lights, at one cost per pixel.
+// A grid of probes in a box (ProbeGrid), relit by update(): diffuse light of many lights, at one cost per pixel.
 //
 // box: a Box3; size: probes along x, y, z. Only the standard materials given to add(), or found in the scene that
 // addScene() is given, receive it. worker: a Worker of lampion/worker, which then lights the probes; they follow as soon
