@@ -2,27 +2,12 @@
 // lanterns.mjs FOLDER: the room of lanterns in headless Chromium: on probes, on probes that a worker lights, and under
 // three's own lights. Prints the milliseconds of frames.
 import assert from 'node:assert/strict';
-import { createServer } from 'node:http';
-import { readFile } from 'node:fs/promises';
-import { extname } from 'node:path';
 import { openBrowser } from './browser.mjs';
+import { serve } from './serve.mjs';
 
 const [folder] = process.argv.slice(2);
-const types = { '.html': 'text/html', '.js': 'text/javascript' };
-const server = createServer(async (request, response) => {
-    const { pathname } = new URL(request.url, 'http://localhost');
-    try {
-        const content = await readFile(folder + pathname);
-        response.setHeader('Content-Type', types[extname(pathname)] ?? 'application/octet-stream');
-        response.end(content);
-    } catch {
-        response.statusCode = pathname === '/favicon.ico' ? 204 : 404;
-        response.end();
-    }
-});
-await new Promise((listening) => { server.listen(0, '127.0.0.1', listening); });
-const browser = await openBrowser(`${folder}/profile`);
-const open = (query) => browser.open(`http://127.0.0.1:${server.address().port}/lanterns.html?${query}`);
+const address = await serve(folder), browser = await openBrowser(`${folder}/profile`);
+const open = (query) => browser.open(`${address}/lanterns.html?${query}`);
 try {
     for (const query of ['lights=1000&frames=5', 'lights=100&frames=5', 'lights=100&frames=5&three', 'lights=10&frames=5', 'lights=10&frames=5&three']) {
         await open(query);
@@ -37,5 +22,4 @@ try {
     assert.deepEqual(browser.complaints, []);
 } finally {
     await browser.close();
-    server.close();
 }

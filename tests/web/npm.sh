@@ -79,7 +79,7 @@ fi
 # draw NAME PAGE OPTION…: writes NAME.exr by the page, and truth.exr of the scene that it exports by lampion render.
 draw() {
     name=$1
-    node "$SOURCE/tests/web/three.mjs" . "$2" chromium >"$WORK/log" 2>&1 || fail "$name: $(cat "$WORK/log")"
+    node "$SOURCE/tests/web/three.mjs" . "$2" >"$WORK/log" 2>&1 || fail "$name: $(cat "$WORK/log")"
     shift 2
     mv three.exr "$name.exr"
     "$PROGRAM" render scene.gltf --lights lights.json --hide-lights --environment none --no-shadows --size 320x200 "$@" -o truth.exr

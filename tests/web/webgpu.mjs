@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: MIT
-// webgpu.mjs PAGE MODULE IMAGE WORK: PAGE, which imports MODULE, as a visitor of a server has it, shows IMAGE, 256 rows
+// webgpu.mjs PAGE MODULE IMAGE WORK: WORK/PAGE, which imports MODULE, as a visitor of a server has it, shows IMAGE, 256 rows
 // of as many pixels of three bytes, within 2 %.
 import { strict as assert } from 'node:assert';
-import { readFileSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
+import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
 import { openBrowser } from './browser.mjs';
+import { serve } from './serve.mjs';
 
 const [page, module, image, work] = process.argv.slice(2), side = 256;
-const server = createServer(({ url }, response) => {
-    response.setHeader('Content-Type', url === '/lampion.js' ? 'text/javascript' : 'text/html');
-    response.end(url === '/lampion.js' ? readFileSync(module) : url === '/' ? readFileSync(page) : '');
-});
-await new Promise((listening) => { server.listen(0, '127.0.0.1', listening); });
+copyFileSync(module, `${work}/lampion.js`); // beside the page
+const address = await serve(work);
 // What WebGPU draws on a page reaches a screenshot where the page is composed by Vulkan, too.
 const browser = await openBrowser(`${work}/profile`, ['--enable-features=Vulkan', '--use-vulkan=swiftshader']);
 
 async function show() {
     await browser.size(side + 16, side + 16);
-    await browser.open(`http://127.0.0.1:${server.address().port}/`);
+    await browser.open(`${address}/${page}`);
     await browser.until('document.title === "drawn"', 30);
     const { x, y } = await browser.evaluate('document.getElementById("view").getBoundingClientRect().toJSON()');
     const { data } = await browser.tell('Page.captureScreenshot', { clip: { x, y, width: side, height: side, scale: 1 } });

@@ -10,4 +10,4 @@ for tool in node chromium; do
 done
 code_blocks docs/webgpu.md html >"$WORK/page.html"
 "$BUILD/tests/web/test_web_sphere" >"$WORK/wanted"
-exec node tests/web/webgpu.mjs "$WORK/page.html" "$BUILD/variants/wgsl/lampion.js" "$WORK/wanted" "$WORK"
+exec node tests/web/webgpu.mjs page.html "$BUILD/variants/wgsl/lampion.js" "$WORK/wanted" "$WORK"
