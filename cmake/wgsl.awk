@@ -4,7 +4,7 @@
 # with ggx.glsl among the files lobes are those of GGX, else one of Phong.
 #
 # Names and comments stay. Differences in meaning between the languages decide the rest:
-#   - a function that returns what the includer defined is left out: the user of WGSL defines it;
+#   - a function that returns what the includer defined is omitted: the user of WGSL defines it;
 #   - functions are not overloaded: the last parameter's type ends the name of those that are in GLSL;
 #   - parameters that are written to are pointers; others are constant, and copied where GLSL changes them;
 #   - c ? a : b is select(b, a, c), which evaluates all three, or an if statement where it is returned.

@@ -116,7 +116,7 @@ def dtype_of(ctype: Any) -> np.dtype:
 
 
 def record(struct: Any) -> SimpleNamespace:
-    """The members of a structure, as Python's numbers, tuples and names; pointers are left out."""
+    """The members of a structure, as Python's numbers, tuples and names; pointers are omitted."""
     members = {}
     for name, field in ffi.typeof(struct).fields:
         value = getattr(struct, name)

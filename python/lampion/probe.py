@@ -75,7 +75,7 @@ def fit(bands: int, directions: ArrayLike, values: ArrayLike, weights: ArrayLike
     directions : array_like, (N, 3)
         Unit.
     values, weights : array_like, (N,)
-        Weights are at least 0, and 1 if they are left out.
+        Weights are at least 0, and 1 if they are not given.
     smoothness : float
         Of the term Σ l² (l+1)² f_lm² that is minimized beside Σ weight (series - value)².
 
