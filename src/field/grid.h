@@ -136,6 +136,16 @@ typedef struct field_box {
     lmp_vec3 low, high;
 } field_box;
 
+static inline void lmpi_field_box_grow(field_box *box, lmp_vec3 at) {
+    lmp_vec3 *low = &box->low, *high = &box->high;
+    low->x = at.x < low->x ? at.x : low->x;
+    low->y = at.y < low->y ? at.y : low->y;
+    low->z = at.z < low->z ? at.z : low->z;
+    high->x = at.x > high->x ? at.x : high->x;
+    high->y = at.y > high->y ? at.y : high->y;
+    high->z = at.z > high->z ? at.z : high->z;
+}
+
 /* Returns how far `at` lies outside low … high. Without branches, which lights in random order
  * would mispredict. */
 static inline float lmpi_field_gap(float low, float at, float high) {

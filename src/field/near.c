@@ -2,7 +2,6 @@
 /* near.c - which lights are near which cells: a list per block of cells, in a pool of entries that
  * was allocated with the field. A light whose lists do not fit is near everywhere. */
 #include "src/field/near.h"
-#include "src/light/packed.h"
 
 #include <math.h>
 #include <string.h>
@@ -200,18 +199,6 @@ void lmpi_field_relist(lmp_field *field, uint32_t light, const field_sphere *was
 void lmpi_field_unlist_all(lmp_field *field) {
     for (lmp_field *level = field; level; level = level->coarse)
         unlist_all(level);
-}
-
-/* --- points ----------------------------------------------------------------------------------- */
-
-float lmpi_field_residual(const lmp_field *field, uint32_t light, lmp_vec3 point) {
-    if (!lmpi_light_fades(&field->lights[light]))
-        return 1;
-    const field_sphere *s = &field->spheres[light];
-    const float x = s->center.x - point.x, y = s->center.y - point.y, z = s->center.z - point.z;
-    const float away = (sqrtf(x * x + y * y + z * z) - lmpi_field_around(s, 0)) / field->info.reach;
-    const float t = fminf(fmaxf(away, 0), 1), v = 1 - t * t;
-    return v * v * v * (1 + 3 * t * t);
 }
 
 /* --- sets ------------------------------------------------------------------------------------- */

@@ -6,10 +6,6 @@
 #include "src/field/near.h"
 #include "src/kernels/field.h"
 
-/* Adds the lights listed at a point, or all if it lies outside the grid; returns whether it lies
- * inside. */
-bool lmpi_field_set_find(const lmp_field *field, lmp_vec3 point, field_set *set);
-
 /* Floats of the coefficients of as many points as a brick has nodes. */
 #define FIELD_ROWS (FIELD_BRICK * 3 * LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX)
 
@@ -31,10 +27,11 @@ typedef struct field_blocks {
 } field_blocks;
 
 /* Interpolates coefficients at up to FIELD_BRICK points, in any cell where they lie outside the
- * grid; rows gives rows of field->values to which near lights are added. blocks, which may be NULL,
- * receives the blocks of points inside, at most one per point. */
+ * grid. blocks, which may be NULL, receives the blocks of points inside, at most one per point. */
 void lmpi_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_t count,
                             field_blocks *blocks, const lmpi_kernel_out *out);
-void lmpi_field_rows(const lmp_field *field, const lmp_vec3 *points, size_t count, float *rows);
+
+/* Evaluates field->values coefficients at a point, near lights included. */
+void lmpi_field_row(const lmp_field *field, lmp_vec3 point, float *row);
 
 #endif

@@ -56,33 +56,13 @@ static __attribute__((noinline)) void shade_far(const field_shading *shading, si
 
 /* --- near lights ------------------------------------------------------------------------------ */
 
-static float lower(float a, float b) {
-    return a < b ? a : b;
-}
-
-static float higher(float a, float b) {
-    return a > b ? a : b;
-}
-
 /* Returns the box around a chunk's points. */
 static field_box box_of(const shade_chunk *chunk) {
-    field_box box;
-    box.low = box.high = lmpi_batch_get(&chunk->surfaces.point, 0);
-    for (size_t i = 1; i < chunk->count; i++) {
-        const lmp_vec3 p = lmpi_batch_get(&chunk->surfaces.point, i);
-        box.low =
-            (lmp_vec3) { lower(box.low.x, p.x), lower(box.low.y, p.y), lower(box.low.z, p.z) };
-        box.high = (lmp_vec3) { higher(box.high.x, p.x), higher(box.high.y, p.y),
-                                higher(box.high.z, p.z) };
-    }
+    const lmp_vec3 first = lmpi_batch_get(&chunk->surfaces.point, 0);
+    field_box box = { first, first };
+    for (size_t i = 1; i < chunk->count; i++)
+        lmpi_field_box_grow(&box, lmpi_batch_get(&chunk->surfaces.point, i));
     return box;
-}
-
-/* Whether the field may lack part of the light at some point of the box. */
-static bool is_near(const lmp_field *field, uint32_t light, const field_box *box) {
-    const field_sphere *sphere = &field->spheres[light];
-    const float reach = lmpi_field_around(sphere, field->info.reach) * 1.0001f;
-    return (lmpi_field_distance2(box, sphere->center) < reach * reach) | field->everywhere[light];
 }
 
 /* Lights near a chunk that are found in one call. */
@@ -108,7 +88,7 @@ static __attribute__((noinline)) size_t find_near(const lmp_field *field, const 
                 return count;
             }
             found[count] = light;
-            count += light >= *next && is_near(field, light, &box);
+            count += light >= *next && lmpi_field_is_near(field, light, &box);
         }
     *next = FIELD_NONE;
     return count;
@@ -160,7 +140,7 @@ static __attribute__((noinline)) void shade_surroundings(const field_shading *sh
     float sh[3 * LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX];
     const lmp_environment light = { sh, shading->settings.bands };
     const lmp_vec3 point = lmpi_vec3_element(&one->position, 0);
-    lmpi_field_rows(shading->field, &point, 1, sh);
+    lmpi_field_row(shading->field, point, sh);
     lmpi_shade_environment_bare_n(&shading->settings, one, 1, &light, sizeof *color, &color->r);
 }
 

@@ -235,6 +235,42 @@ static void outside_the_grid_every_light_is_summed(void **test) {
     lmp_field_destroy(field);
 }
 
+/* More lights near each point than are found at once, of every kind, at points of several blocks
+ * in random order and outside the grid. */
+static void points_together_are_points_alone(void **test) {
+    (void)test;
+    enum { MANY = 1500, POINTS = 41 };
+    static lmp_light lights[MANY];
+    static float rows[POINTS][VALUES], planes[VALUES][POINTS];
+    const lmp_field_desc desc = { .nodes = { 7, 7, 7 }, .light_max = MANY, .reach = 3 };
+    lmp_vec3 points[POINTS];
+    float alone[VALUES];
+    field_sphere_lights(0, 6, MANY, lights);
+    for (int i = 0; i < MANY; i += 5)
+        lights[i].kind = LMP_LIGHT_POINT;
+    lights[700].kind = LMP_LIGHT_DIRECTIONAL;
+    lights[700].direction = (lmp_vec3) { 0, 0.6f, 0.8f };
+    lights[1400].kind = LMP_LIGHT_SPOT;
+    lights[1400].direction = (lmp_vec3) { 1, 0, 0 };
+    lights[1400].inner = 0.3f;
+    lights[1400].outer = 1.2f;
+    lmp_field *field = field_of(&desc, lights, MANY);
+    for (int i = 0; i < POINTS; i++)
+        points[i] =
+            i % 4 < 3 ? (lmp_vec3) { 0.3f * (float)(i % 20), 2.1f, 3.2f } : field_point(-1, 7);
+    assert_true(lmp_field_find_near(field, points[10], 0, NULL, NULL) > 600);
+    lmp_field_eval_n(field, lmp_vec3_array_of(points), POINTS, lmp_sh_interleaved(rows[0], 0));
+    lmp_field_eval_n(field, lmp_vec3_array_of(points), POINTS, lmp_sh_planar(planes[0], 0));
+    for (int i = 0; i < POINTS; i++) {
+        lmp_field_eval_n(field, lmp_vec3_array_same(&points[i]), 1, lmp_sh_interleaved(alone, 0));
+        assert_memory_equal(rows[i], alone, sizeof alone);
+        for (int v = 0; v < VALUES; v++)
+            assert_true(planes[v][i] == alone[v]);
+        CHECK_WITHIN(field_error(field, points[i]), 0.02);
+    }
+    lmp_field_destroy(field);
+}
+
 /* --- lobes ------------------------------------------------------------------------------------ */
 
 static void lobes_respond_as_to_the_coefficients(void **test) {
@@ -405,6 +441,7 @@ int main(void) {
         cmocka_unit_test(nothing_jumps_where_a_light_crosses_a_coarser_cell),
         cmocka_unit_test(near_lights_are_told_with_their_residuals),
         cmocka_unit_test(outside_the_grid_every_light_is_summed),
+        cmocka_unit_test(points_together_are_points_alone),
         cmocka_unit_test(lobes_respond_as_to_the_coefficients),
         cmocka_unit_test(texels_are_the_nodes_of_the_bytes),
         cmocka_unit_test(lists_hold_all_that_is_near),

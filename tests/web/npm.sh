@@ -54,6 +54,9 @@ npm ci --ignore-scripts --no-audit --no-fund --fetch-retries 0 --fetch-timeout 6
 npm install --no-save --offline --no-audit --no-fund "$package" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
 cp "$SOURCE/tests/web/npm.mjs" .
 node npm.mjs >"$WORK/log" 2>&1 || fail "$(tail -c 3000 "$WORK/log")"
+cp "$SOURCE/examples/npm/relight.mjs" .
+node relight.mjs >"$WORK/log" 2>&1 || fail "$(tail -c 3000 "$WORK/log")"
+awk '/root mean square error/ { found = 1; if (!($(NF - 1) <= 3)) exit 1 } END { exit !found }' "$WORK/log" || fail "relight.mjs: $(cat "$WORK/log")"
 
 # Types agree with what node has just run, and refuse what it refused.
 if command -v tsc >/dev/null; then
