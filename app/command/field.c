@@ -2,6 +2,7 @@
 /* lampion field - an irradiance volume of a scene's lights, in the form that engines use. */
 #include "app/base/cli.h"
 #include "app/command/command.h"
+#include "app/render/renderer/bounces.h"
 #include "app/scene/world.h"
 #include "app/study/volume.h"
 
@@ -81,6 +82,8 @@ static bool make(const field_options *o, const char *name, base_error *error) {
     scene world;
     environment around = { .bands = 0 };
     volume_settings settings = o->settings;
+    /* surfaces are lit by at least 3 bands */
+    const int bands = settings.bounces > 0 && settings.bands < 3 ? 3 : settings.bands;
     if (!o->shadows)
         settings.rays = 0;
     if (!scene_load(name, &o->load, &world, error))
@@ -89,7 +92,7 @@ static bool make(const field_options *o, const char *name, base_error *error) {
               scene_apply_lights(&world, &o->lights, error) &&
               environment_open(&o->environment, &world, &around, error) &&
               environment_extract_suns(&around, error) &&
-              environment_project(&around, settings.bands, error);
+              environment_project(&around, bands, error);
     if (ok) {
         world.light_count = environment_add_suns(&around, world.lights, world.light_count);
         ok = (volume_file_of(o->output.path) == VOLUME_LMPF ? write_field : write_volume)(
@@ -117,10 +120,11 @@ static int check_options(const cli_command *command, const field_options *o, int
     if (o->settings.preset != VOLUME_OWN && o->settings.bands != 3)
         return cli_usage(command, "--bands %d: %s keeps 3", o->settings.bands,
                          volume_presets()[o->settings.preset]);
-    if (kind == VOLUME_LMPF &&
-        (o->settings.preset != VOLUME_OWN || o->output.half ||
-         o->output.layout != VOLUME_INTERLEAVED || o->shadows || o->settings.dering))
-        return cli_usage(command, "a .lmpf has no preset, layout, 16 bits, shadows or deringing");
+    if (kind == VOLUME_LMPF && (o->settings.preset != VOLUME_OWN || o->output.half ||
+                                o->output.layout != VOLUME_INTERLEAVED || o->shadows ||
+                                o->settings.dering || o->settings.bounces > 0))
+        return cli_usage(command,
+                         "a .lmpf has no preset, layout, 16 bits, shadows, bounces or deringing");
     if (kind == VOLUME_CSV && o->output.layout == VOLUME_PLANAR)
         return cli_usage(command,
                          "a table has a line a probe: --layout planar takes .json or .npy");
@@ -158,6 +162,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           0, 0, NULL, NULL },
         { "shadow-rays", 0, CLI_INT, &o.settings.rays, "N", "rays of --shadows for each light", 1,
           VOLUME_RAYS_MAX, NULL, NULL },
+        BOUNCES_OPTION_ROW(o.settings.bounces),
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         ENVIRONMENT_OPTION_ROWS(o.environment),
         SCENE_LOAD_OPTION_ROWS(o.load),
@@ -179,7 +184,7 @@ const cli_command command_field = {
     .operands = "SCENE",
     .summary = "make an irradiance volume of a scene's lights for an engine",
     .examples = "lampion field builtin:atrium --grid 32x16x32 --preset unity -o probes.json\n"
-                "lampion field scene.gltf --preset unreal --shadows -o probes.csv\n"
+                "lampion field scene.gltf --preset unreal --shadows --bounces 4 -o probes.csv\n"
                 "lampion field scene.gltf --preset filament --layout planar --half -o probes.npy\n"
                 "lampion field scene.gltf --random-lights 1000 --bands 5 -o field.lmpf\n",
     .run = run,

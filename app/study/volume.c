@@ -3,6 +3,7 @@
 
 #include "app/base/progress.h"
 #include "app/scene/bake.h"
+#include "app/study/volume_bounces.h"
 #include "app/study/volume_visibility.h"
 
 #include <math.h>
@@ -92,7 +93,9 @@ typedef struct volume_job {
     const scene *world;
     const environment *around;
     const lmp_light *lights;
+    trace_bvh *bvh;                /* NULL: there are no rays */
     volume_visibility *visibility; /* NULL: nothing blocks light */
+    volume_bounces *bounces;       /* NULL: light does not bounce */
 } volume_job;
 
 /* Adds three planes of the environment's bands, of which it has at least as many. */
@@ -132,6 +135,8 @@ static void make_probe(const volume_job *job, size_t probe, lmp_light *seen) {
     lmp_light_project(s->bands, lights, job->world->light_count, point, sh);
     if (environment_shines(job->around))
         add_around(job->around, s->bands, sky, sh);
+    if (job->bounces)
+        volume_bounces_add(job->bounces, point, s->bands, sh);
     if (s->dering)
         dering(s->bands, sh);
     float *values = v->values + probe * v->value_count;
@@ -169,6 +174,26 @@ static bool make_probes(const volume_job *job) {
     return ok;
 }
 
+/* Prepares what needs rays. */
+static bool prepare(volume_job *job) {
+    const volume_settings *s = &job->volume->settings;
+    const bool shadows = s->rays > 0, bounces = s->bounces > 0;
+    if (shadows || bounces)
+        job->bvh = trace_create(job->world);
+    if (job->bvh && shadows)
+        job->visibility = volume_visibility_create(job->world, job->bvh, job->around, s->rays);
+    if (job->bvh && bounces)
+        job->bounces =
+            volume_bounces_create(job->world, job->bvh, job->around, shadows, s->bounces);
+    return (!shadows || job->visibility) && (!bounces || job->bounces);
+}
+
+static void clean_up(volume_job *job) {
+    volume_bounces_destroy(job->bounces);
+    volume_visibility_destroy(job->visibility);
+    trace_destroy(job->bvh);
+}
+
 bool volume_make(const scene *world, const environment *around, const volume_settings *settings,
                  volume *v, base_error *error) {
     *v = (volume) { .settings = *settings,
@@ -179,13 +204,8 @@ bool volume_make(const scene *world, const environment *around, const volume_set
     v->values = malloc(v->probe_count * v->value_count * sizeof *v->values);
     lmp_light *lights = copy_lights(world);
     volume_job job = { .volume = v, .world = world, .around = around, .lights = lights };
-    bool ok = v->values && lights;
-    if (ok && settings->rays > 0) {
-        job.visibility = volume_visibility_create(world, around, settings->rays);
-        ok = job.visibility != NULL;
-    }
-    ok = ok && make_probes(&job);
-    volume_visibility_destroy(job.visibility);
+    const bool ok = v->values && lights && prepare(&job) && make_probes(&job);
+    clean_up(&job);
     free(lights);
     if (ok)
         return true;

@@ -28,6 +28,7 @@ typedef struct volume_settings {
     int preset;
     bool dering; /* damp a probe's bands until its irradiance is nowhere below 0 */
     int rays;    /* to each light, to find whether surfaces block it; 0: nothing blocks light */
+    int bounces; /* of light on surfaces before it arrives; 0: direct light alone */
 } volume_settings;
 
 /* The values of the probes, `value_count` for node i + counts[0] * (j + counts[1] * k). */
@@ -40,7 +41,7 @@ typedef struct volume {
 } volume;
 
 /* Computes the light of the scene's lights and of its environment, which need not shine, at every
- * node. */
+ * node. The environment has as many bands, and at least 3 if light bounces. */
 bool volume_make(const scene *scene, const environment *surroundings,
                  const volume_settings *settings, volume *volume, base_error *error);
 void volume_free(volume *volume);

@@ -9,22 +9,22 @@
 
 struct volume_visibility {
     const scene *world;
-    trace_bvh *bvh;
+    const trace_bvh *bvh;
     shadow_around around;
     int rays;
     float lift;
 };
 
-volume_visibility *volume_visibility_create(const scene *world, const environment *surroundings,
-                                            int rays) {
+volume_visibility *volume_visibility_create(const scene *world, const trace_bvh *bvh,
+                                            const environment *surroundings, int rays) {
     volume_visibility *v = calloc(1, sizeof *v);
     if (!v)
         return NULL;
     v->world = world;
     v->rays = rays;
     v->lift = (float)trace_lift(world);
-    v->bvh = trace_create(world);
-    if (v->bvh && shadow_around_create(surroundings, &v->around))
+    v->bvh = bvh;
+    if (shadow_around_create(surroundings, &v->around))
         return v;
     volume_visibility_destroy(v);
     return NULL;
@@ -33,7 +33,6 @@ volume_visibility *volume_visibility_create(const scene *world, const environmen
 void volume_visibility_destroy(volume_visibility *v) {
     if (!v)
         return;
-    trace_destroy(v->bvh);
     shadow_around_free(&v->around);
     free(v);
 }

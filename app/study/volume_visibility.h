@@ -4,13 +4,14 @@
 #define LAMPION_STUDY_VOLUME_VISIBILITY_H
 
 #include "app/scene/environment.h"
+#include "app/scene/trace/trace.h"
 
 typedef struct volume_visibility volume_visibility;
 
-/* Prepares visibility by so many rays to each light. The scene must outlive it. Returns NULL if
- * memory ran out. */
-volume_visibility *volume_visibility_create(const scene *scene, const environment *surroundings,
-                                            int rays);
+/* Prepares visibility by so many rays to each light. The scene and its tree must outlive it.
+ * Returns NULL if memory ran out. */
+volume_visibility *volume_visibility_create(const scene *scene, const trace_bvh *bvh,
+                                            const environment *surroundings, int rays);
 void volume_visibility_destroy(volume_visibility *visibility);
 
 /* Copies the lights, each dimmed by the fraction that arrives at a point; returns the fraction of

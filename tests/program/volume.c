@@ -333,6 +333,7 @@ static void what_cannot_be_written_is_refused_in_one_line(void **state) {
         int status;
     } refusals[] = {
         { "", "-o FILE is needed", 2 },
+        { "--bounces 2 -o x.lmpf", "bounces", 2 },
         { "-o p.txt", "unknown kind of file", 2 },
         { "-o p.csv --layout planar", "--layout planar takes .json or .npy", 2 },
         { "-o p.lmpf --preset unity", "a .lmpf has no preset", 2 },

@@ -3,6 +3,7 @@
  * adds is known. */
 #include "app/render/renderer/bounces.h"
 #include "app/render/renderer/shadows.h"
+#include "app/study/volume.h"
 #include "tests/reference/cube.h"
 
 #include <math.h>
@@ -169,6 +170,87 @@ static void nothing_leaks_into_a_closed_room(void **state) {
 }
 
 /* Rays are cast anew, not read from the user's cache. */
+/* --- in probes -------------------------------------------------------------------------------- */
+
+enum { PROBES = 8, VALUES = 27 };
+
+/* Makes probes at the corners of a box in the room. */
+static void make_probes(const room *r, int bounces, int rays, volume *probes) {
+    const environment none = { .bands = 0 };
+    const volume_settings settings = {
+        .grid = { { 2, 2, 2 }, { -0.5f, 0, -0.5f }, { 0.5f, 0.5f, 0.5f } },
+        .bands = 3,
+        .rays = rays,
+        .bounces = bounces
+    };
+    base_error error = { "" };
+    assert_true(volume_make(&r->world, &none, &settings, probes, &error));
+    assert_int_equal(probes->probe_count, PROBES);
+    assert_int_equal(probes->value_count, VALUES);
+}
+
+/* The same room around probes: to light of radiance 1 from everywhere, which nothing hides, each
+ * bounce adds rho as much as the one before. */
+static void probes_see_the_geometric_series(void **state) {
+    (void)state;
+    const int numbers[] = { 1, 2, 8 };
+    for (int k = 0; k < 3; k++) {
+        room r;
+        volume probes;
+        open_room(cube_obj, "", 0.8, &r);
+        light_evenly(&r);
+        make_probes(&r, numbers[k], 0, &probes);
+        const double radiance = 1 + series_of(0.8, numbers[k] - 1);
+        for (int i = 0; i < PROBES * VALUES; i++) {
+            const double expected = i % VALUES % 9 == 0 ? 2 * sqrt(M_PI) * radiance : 0;
+            CHECK_WITHIN(fabs((double)probes.values[i] - expected), 0.004 * radiance);
+        }
+        volume_free(&probes);
+        close_room(&r);
+    }
+}
+
+/* Whether a point over the floor sees it in a direction. */
+static float sees_floor(lmp_vec3 direction, void *point) {
+    const lmp_vec3 *p = point;
+    const float t = (p->y + 1) / -direction.y;
+    return direction.y < 0 && fabsf(p->x + t * direction.x) <= 9 &&
+           fabsf(p->z + t * direction.z) <= 9;
+}
+
+/* Under a distant lamp a floor of albedo 0.6 has one radiance, and hides no light from itself. */
+static void probes_see_the_floor_below_them(void **state) {
+    (void)state;
+    static const char floor_obj[] = "mtllib room.mtl\nusemtl floor\nv -9 -1 -9\nv -9 -1 9\n"
+                                    "v 9 -1 9\nv 9 -1 -9\nf 1 2 3 4\n";
+    const scene_light lamp = { .emitter = { .kind = LMP_LIGHT_DIRECTIONAL,
+                                            .direction = { 0, 1, 0 },
+                                            .radiance = { 2, 1, 0 } } };
+    for (int rays = 0; rays <= 16; rays += 16) {
+        room r;
+        volume direct, bounced;
+        open_room(floor_obj, "", 0.6, &r);
+        light_by(&r, &lamp);
+        make_probes(&r, 0, rays, &direct);
+        make_probes(&r, 1, rays, &bounced);
+        for (int i = 0; i < PROBES; i++) {
+            lmp_vec3 point = { (float)(i % 2) - 0.5f, 0.5f * (float)(i / 2 % 2),
+                               (float)(i / 4) - 0.5f };
+            float floor[VALUES / 3];
+            lmp_sh_project_function(3, 256, sees_floor, &point, floor);
+            for (int v = 0; v < VALUES; v++) {
+                const double radiance = 0.6 * (2 - v / 9) / M_PI;
+                const double added =
+                    (double)bounced.values[i * VALUES + v] - (double)direct.values[i * VALUES + v];
+                CHECK_WITHIN(fabs(added - radiance * (double)floor[v % 9]), 0.03 * radiance + 1e-6);
+            }
+        }
+        volume_free(&direct);
+        volume_free(&bounced);
+        close_room(&r);
+    }
+}
+
 static int make_folder(void **state) {
     const int made = folder_make(state);
     setenv("XDG_CACHE_HOME", in_folder("cache"), 1);
@@ -182,6 +264,8 @@ int main(void) {
         cmocka_unit_test(what_stands_on_a_wall_hides_it),
         cmocka_unit_test(the_power_of_a_lamp_is_kept),
         cmocka_unit_test(nothing_leaks_into_a_closed_room),
+        cmocka_unit_test(probes_see_the_geometric_series),
+        cmocka_unit_test(probes_see_the_floor_below_them),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);
 }

@@ -7,6 +7,7 @@
 #include "app/render/shadow/transfer_read.h"
 #include "app/scene/vector.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,7 +100,8 @@ static bool follow_lights(transfer *t, const render_frame *frame) {
         return false;
     const double lit = timing_now();
     lmp_transfer_reset(t->baked->transfer);
-    if (lmp_transfer_update(NULL, t->baked->transfer, &settings, &lighting) != LMP_OK)
+    if (settings.iterations > 0 &&
+        lmp_transfer_update(NULL, t->baked->transfer, &settings, &lighting) != LMP_OK)
         return false;
     t->statistics.light_milliseconds = 1e3 * (lit - start);
     t->statistics.bounce_milliseconds = 1e3 * (timing_now() - lit);
@@ -128,4 +130,21 @@ static void fill(const void *user, const render_surfaces *surfaces, const render
 render_bounces transfer_bounces(transfer *t) {
     return t->baked->transfer ? (render_bounces) { .begin = begin, .fill = fill, .user = t }
                               : (render_bounces) { .user = NULL };
+}
+
+/* --- from a point ----------------------------------------------------------------------------- */
+
+lmp_rgb transfer_radiance(const transfer *t, lmp_vec3 point, lmp_vec3 direction) {
+    const uint32_t source =
+        t->baked->transfer ? transfer_source(&t->view, point, direction) : LMP_TRANSFER_NONE;
+    if (source == LMP_TRANSFER_NONE)
+        return (lmp_rgb) { 0, 0, 0 };
+    const lmp_transfer_surfel *s = &t->baked->surfels.at[source];
+    const lmp_rgb indirect =
+        lmp_transfer_irradiance(t->baked->transfer, source, s->position, s->normal);
+    const lmp_rgb direct = t->direct[source];
+    const float per_pi = (float)M_1_PI;
+    return (lmp_rgb) { per_pi * s->albedo.r * (direct.r + indirect.r),
+                       per_pi * s->albedo.g * (direct.g + indirect.g),
+                       per_pi * s->albedo.b * (direct.b + indirect.b) };
 }

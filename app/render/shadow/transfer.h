@@ -12,7 +12,7 @@ typedef struct transfer transfer;
 
 /* How light bounces. */
 typedef struct transfer_settings {
-    int bounces;               /* 1 … TRANSFER_BOUNCES_MAX */
+    int bounces;               /* 0 … TRANSFER_BOUNCES_MAX */
     bool shadows;              /* whether surfaces hide lights from surfels */
     bool quick;                /* whether surfels send few rays to lights, for lights that move */
     const environment *around; /* NULL: none; must outlive the transfer */
@@ -33,6 +33,11 @@ void transfer_relight(transfer *transfer);
 
 /* Returns what a frame needs to be drawn with bounced light; zero in a scene without surfaces. */
 render_bounces transfer_bounces(transfer *transfer);
+
+/* Returns the radiance of the surface that is seen from a point in a direction, in the light of the
+ * last frame: what it reflects of the lights and, by so many bounces, of other surfaces. It is 0
+ * where there is none, or its back. */
+lmp_rgb transfer_radiance(const transfer *transfer, lmp_vec3 point, lmp_vec3 direction);
 
 typedef struct transfer_statistics {
     size_t surfels, bytes;      /* of the library's transfer */

@@ -120,8 +120,7 @@ uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 no
     return nearest;
 }
 
-/* Returns the surfel where a ray ends; none where it sees the back of a single-sided triangle. */
-static uint32_t source_along(const transfer_view *view, lmp_vec3 from, lmp_vec3 direction) {
+uint32_t transfer_source(const transfer_view *view, lmp_vec3 from, lmp_vec3 direction) {
     const met found = meet(view->scene, view->bvh, from, direction);
     if (!found.front)
         return LMP_TRANSFER_NONE;
@@ -135,7 +134,7 @@ static void fill_hits(const transfer_view *view, size_t index, float lift, uint3
     const lmp_transfer_surfel *surfel = &view->cells->surfels->at[index];
     const lmp_vec3 from = vec_add(surfel->position, vec_scale(surfel->normal, lift));
     for (size_t k = 0; k < TRANSFER_RAYS; k++)
-        hits[k] = source_along(view, from, direction_of(surfel, index, k));
+        hits[k] = transfer_source(view, from, direction_of(surfel, index, k));
 }
 
 static void fill_links(const transfer_view *view, size_t index, uint32_t *links) {

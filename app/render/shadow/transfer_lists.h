@@ -33,4 +33,8 @@ void transfer_lists_free(transfer_lists *lists);
  * if there is any; LMP_TRANSFER_NONE if there is none. */
 uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal);
 
+/* Returns the surfel where a ray ends; LMP_TRANSFER_NONE where it meets nothing, or the back of a
+ * single-sided surface. */
+uint32_t transfer_source(const transfer_view *view, lmp_vec3 from, lmp_vec3 direction);
+
 #endif
