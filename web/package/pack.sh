@@ -23,13 +23,21 @@ cp "$build/simd/variants/wgsl/lampion.js" "$folder/wgsl.js"
 # The page of the documents, without links to others and without notes for its test.
 sed -E '/^<!-- .* -->$/d; s/\[([^]]*)\]\((\.\.\/|[a-z])[^)]*\)/\1/g' docs/npm.md >"$folder/README.md"
 sed "s/\"0.0.0\"/\"$version\"/" web/package/package.json >"$folder/package.json"
-# The shaders as text, for bundlers and browsers alike.
-node --input-type=module - shaders/lampion/*.glsl >"$folder/shaders.js" <<'END'
+# as_text FILE…: shaders as text, for bundlers and browsers alike.
+as_text() {
+    node --input-type=module - "$@" <<'END'
 import { readFileSync } from 'node:fs';
 import { basename } from 'node:path';
 for (const file of process.argv.slice(2))
     console.log(`export const ${basename(file, '.glsl')} = ${JSON.stringify(readFileSync(file, 'utf8'))};`);
 END
+}
+as_text shaders/lampion/*.glsl >"$folder/shaders.js"
+mkdir -p "$build/expanded"
+for shader in lights volume; do
+    emcc -E -P -x c -Ishaders/lampion "web/package/$shader.glsl" -o "$build/expanded/$shader.glsl"
+done
+as_text "$build/expanded"/*.glsl >"$folder/expanded.js"
 time=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date -r CHANGELOG.md +%s)}
 chmod -R u=rwX,go=rX "$folder"
 find "$folder" -type f -exec chmod a-x {} +

@@ -11,13 +11,13 @@ export class Patches {
             this.undo.set(material, this.patch(material));
         return material;
     }
-    // All materials of a scene whose userData.lampion is not false.
-    addScene(scene) {
-        scene.traverse(({ material }) => {
-            for (const one of material ? [material].flat() : [])
-                if (one.userData.lampion !== false)
-                    this.add(one);
-        });
+    addAll(materials) {
+        for (const material of materials)
+            this.add(material);
+    }
+    forEach(visit) {
+        for (const material of this.undo.keys())
+            visit(material);
     }
     dispose() {
         this.undo.forEach((undo) => undo());

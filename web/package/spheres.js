@@ -1,56 +1,8 @@
 // SPDX-License-Identifier: MIT
-// spheres.js - SphereLight, and the sphere lights of a scene as arrays in Lampion's memory.
-import { Color, Object3D, Vector3 } from 'three';
+// spheres.js - spheres as arrays in Lampion's memory, which grow.
 
-const world = new Vector3();
-
-// A glowing sphere. Its intensity is that of a PointLight, in candela, whatever its radius: it keeps its light as it
-// grows. `radiance` is that of its surface.
-export class SphereLight extends Object3D {
-    constructor(color = 0xffffff, intensity = 1, radius = 0.1) {
-        super();
-        this.isSphereLight = true;
-        this.type = 'SphereLight';
-        this.color = new Color(color);
-        Object.assign(this, { intensity, radius });
-    }
-    get radiance() {
-        return this.intensity / (Math.PI * this.radius ** 2);
-    }
-    set radiance(radiance) {
-        this.intensity = radiance * Math.PI * this.radius ** 2;
-    }
-    get power() {
-        return 4 * Math.PI * this.intensity;
-    }
-    set power(power) {
-        this.intensity = power / (4 * Math.PI);
-    }
-    copy(source, recursive) {
-        super.copy(source, recursive);
-        this.color.copy(source.color);
-        return Object.assign(this, { intensity: source.intensity, radius: source.radius });
-    }
-}
-
-// Returns the visible sphere lights of a scene as arrays in Lampion's memory, which `spheres` keeps.
-export function gather(scene, spheres) {
-    let count = 0;
-    scene.traverseVisible((light) => {
-        if (!light.isSphereLight)
-            return;
-        if (!(light.radius > 0))
-            throw new RangeError(`the radius of SphereLight ${light.name} is ${light.radius}`);
-        spheres.reserve(count + 1);
-        world.setFromMatrixPosition(light.matrixWorld).toArray(spheres.center, 3 * count);
-        spheres.radius[count] = light.radius;
-        const { radiance } = light;
-        spheres.radiance.set([radiance * light.color.r, radiance * light.color.g, radiance * light.color.b], 3 * count);
-        count++;
-    });
-    spheres.count = count;
-    return spheres;
-}
+// Returns the radiance of a sphere of an intensity: of a distant point, in candela, and independent of the radius.
+export const radianceOf = (intensity, radius) => intensity / (Math.PI * radius ** 2);
 
 export class Spheres {
     constructor(lmp) {
@@ -69,6 +21,16 @@ export class Spheres {
                 lmp.free(old);
             }
         }
+    }
+    // Adds a sphere behind those there are; `count = 0` begins anew.
+    add(name, position, radius, color, radiance) {
+        if (!(radius > 0))
+            throw new RangeError(`the radius of SphereLight ${name} is ${radius}`);
+        const i = this.count++;
+        this.reserve(this.count);
+        this.center.set(position, 3 * i);
+        this.radius[i] = radius;
+        this.radiance.set(color.map((value) => radiance * value), 3 * i);
     }
     get arrays() {
         return { center: this.center, radius: this.radius, radiance: this.radiance };

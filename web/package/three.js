@@ -4,12 +4,11 @@
 import {
     Data3DTexture, DataTexture, FloatType, HalfFloatType, LightProbe, LinearFilter, RGBAFormat, Vector3,
 } from 'three';
+import { SphereTexels, checkBands, lightsGlsl, tableTexels, volumeGlsl } from './glsl.js';
 import { Patches } from './patches.js';
 import { ProbeGrid, SLABS } from './probes.js';
-import { ggx, lampion, probe } from './shaders.js';
-import { SphereLight, Spheres, gather } from './spheres.js';
-
-const ROW = 512; // lights in a row of the texture, 2 texels each
+import { Spheres } from './spheres.js';
+import { SphereLight, gather, materialsOf } from './three-spheres.js';
 
 export { SphereLight };
 
@@ -32,6 +31,12 @@ function extend(material, key, uniforms, change) {
 
 const isStandard = ({ isMeshStandardMaterial }) => isMeshStandardMaterial === true;
 
+function floatTexture({ data, width, height }) {
+    const texture = new DataTexture(data, width, height, RGBAFormat, FloatType);
+    texture.needsUpdate = true;
+    return texture;
+}
+
 const WORLD = `
     vec3 lampionToWorld(vec3 v) { return (vec4(v, 0.0) * viewMatrix).xyz; }
     vec3 lampionWorldPosition(vec3 v) { return (vec4(v - viewMatrix[3].xyz, 0.0) * viewMatrix).xyz; }`;
@@ -41,31 +46,14 @@ const WORLD = `
 // bands: of highlights, 1 to 32: more for smoother surfaces. Materials whose userData.lampion is false are left alone.
 export class SphereLights {
     constructor(lmp, scene, { bands = 10 } = {}) {
-        if (!(Number.isInteger(bands) && bands >= 1 && bands <= 32))
-            throw new RangeError(`SphereLights: bands is ${bands}, not 1 to 32`);
-        Object.assign(this, { lmp, scene, spheres: new Spheres(lmp) });
-        const table = new Float32Array(4 * lmp.GGX_TEXELS);
-        lmp.lobe_copy_ggx_texels(table);
-        const texture = new DataTexture(table, 32, lmp.GGX_TEXELS / 32, RGBAFormat, FloatType);
-        texture.needsUpdate = true;
-        this.uniforms = { lampionLights: { value: null }, lampionCount: { value: 0 }, lampionTexels: { value: texture } };
-        const head = `
-            uniform highp sampler2D lampionLights, lampionTexels;
-            uniform int lampionCount;
-            ${WORLD.replaceAll('lampion', 'lampionLight')}
-            vec4 lampionTexel(int i) { return texelFetch(lampionLights, ivec2(i % ${2 * ROW}, i / ${2 * ROW}), 0); }
-            #define LMP_BANDS ${bands}
-            #define LMP_WINDOW LMP_WINDOW_HANNING
-            #define LMP_LIGHT_COUNT lampionCount
-            #define LMP_LIGHT_SPHERE(i) lampionTexel(2 * (i))
-            #define LMP_LIGHT_RADIANCE(i) lampionTexel(2 * (i) + 1).rgb
-            #define LMP_GGX_TEXEL(i) texelFetch(lampionTexels, ivec2((i) % 32, (i) / 32), 0)
-            ${ggx}${lampion}
+        checkBands(bands);
+        Object.assign(this, { lmp, scene, spheres: new Spheres(lmp), texels: new SphereTexels() });
+        this.uniforms = { lampionLights: { value: null }, lampionCount: { value: 0 }, lampionTexels: { value: floatTexture(tableTexels(lmp)) } };
+        const head = `${WORLD.replaceAll('lampion', 'lampionLight')}${lightsGlsl(bands)}
             void main() {`;
         const body = `#include <lights_fragment_end>
-            reflectedLight.directSpecular += lmp_shade_zonal(lmp_surface(lampionLightWorldPosition(geometryPosition),
-                    lampionLightToWorld(geometryNormal), lampionLightToWorld(geometryViewDir)),
-                lmp_metallic_roughness(diffuseColor.rgb, metalnessFactor, roughnessFactor));`;
+            reflectedLight.directSpecular += lampionLight(lampionLightWorldPosition(geometryPosition),
+                lampionLightToWorld(geometryNormal), lampionLightToWorld(geometryViewDir), diffuseColor.rgb, metalnessFactor, roughnessFactor);`;
         this.patches = new Patches(isStandard, (material) => extend(material, `lampion ${bands}`, this.uniforms, (shader) =>
             shader.replace('void main() {', () => head).replace('#include <lights_fragment_end>', () => body)));
         this.update();
@@ -73,21 +61,15 @@ export class SphereLights {
     // Reads the lights of the scene, and lights materials that are new in it.
     update() {
         this.scene.updateMatrixWorld();
-        const { count, center, radius, radiance } = gather(this.scene, this.spheres);
-        this.patches.addScene(this.scene);
-        const rows = Math.max(Math.ceil(count / ROW), 1);
-        if (this.uniforms.lampionLights.value?.image.height !== rows) {
-            this.uniforms.lampionLights.value?.dispose();
-            this.uniforms.lampionLights.value = new DataTexture(new Float32Array(8 * ROW * rows), 2 * ROW, rows, RGBAFormat, FloatType);
+        const { scene, spheres, texels, uniforms } = this;
+        gather(scene, spheres);
+        this.patches.addAll(materialsOf(scene));
+        if (texels.write(spheres)) {
+            uniforms.lampionLights.value?.dispose();
+            uniforms.lampionLights.value = floatTexture(texels);
         }
-        const texture = this.uniforms.lampionLights.value, { data } = texture.image;
-        for (let i = 0; i < count; i++) {
-            data.set(center.subarray(3 * i, 3 * i + 3), 8 * i);
-            data[8 * i + 3] = radius[i];
-            data.set(radiance.subarray(3 * i, 3 * i + 3), 8 * i + 4);
-        }
-        texture.needsUpdate = true;
-        this.uniforms.lampionCount.value = count;
+        uniforms.lampionLights.value.needsUpdate = true;
+        uniforms.lampionCount.value = spheres.count;
     }
     dispose() {
         this.patches.dispose();
@@ -115,44 +97,26 @@ export class LightProbeVolume {
         Object.assign(texture, { format: RGBAFormat, type: HalfFloatType, minFilter: LinearFilter, magFilter: LinearFilter });
         this.uniforms = {
             lampionVolume: { value: texture }, lampionVolumeMin: { value: box.min.clone() }, lampionVolumeExtent: { value: new Vector3(...extent) },
+            lampionVolumeSize: { value: new Vector3(...size) },
         };
         this.patches = this.makePatches(size);
     }
-    makePatches(size) {
-        const [x, y, z] = size.map((n) => `${n}.0`);
-        const head = `
-            uniform highp sampler3D lampionVolume;
-            uniform vec3 lampionVolumeMin, lampionVolumeExtent;
-            ${probe}
-            ${WORLD.replaceAll('lampion', 'lampionVolume')}
-            vec4 lampionVolumeSlab(vec3 at, float slab) {
-                return texture(lampionVolume, vec3(at.xy, (at.z + ${z} * slab) / (${z} * ${SLABS}.0)));
-            }
-            vec3 lampionVolumeIrradiance(vec3 position, vec3 n) {
-                vec3 size = vec3(${x}, ${y}, ${z});
-                vec3 at = clamp((position - lampionVolumeMin) / lampionVolumeExtent, 0.0, 1.0) * (size - 1.0) + 0.5;
-                at.xy /= size.xy;
-                vec4 linear[3], quadratic[3];
-                for (int c = 0; c < 3; c++) {
-                    linear[c] = lampionVolumeSlab(at, float(c));
-                    quadratic[c] = lampionVolumeSlab(at, float(3 + c));
-                }
-                return max(lmp_probe_irradiance(linear, quadratic, lampionVolumeSlab(at, 6.0), n), 0.0);
-            }
+    makePatches() {
+        const head = `${WORLD.replaceAll('lampion', 'lampionVolume')}${volumeGlsl}
             void main() {`;
         const body = `
             #if defined( RE_IndirectDiffuse )
                 irradiance += lampionVolumeIrradiance(lampionVolumeWorldPosition(geometryPosition), lampionVolumeToWorld(geometryNormal));
             #endif
             #include <lights_fragment_maps>`;
-        return new Patches(isStandard, (material) => extend(material, `lampion volume ${size}`, this.uniforms, (shader) =>
+        return new Patches(isStandard, (material) => extend(material, 'lampion volume', this.uniforms, (shader) =>
             shader.replace('void main() {', () => head).replace('#include <lights_fragment_maps>', () => body)));
     }
     add(material) {
         return this.patches.add(material);
     }
     addScene(scene) {
-        this.patches.addScene(scene);
+        this.patches.addAll(materialsOf(scene));
     }
     // Lights the probes by the SphereLights of a scene.
     update(scene) {

@@ -7,8 +7,9 @@ import {
 } from 'three/tsl';
 import { Patches } from './patches.js';
 import { SLABS } from './probes.js';
-import { Spheres, gather } from './spheres.js';
+import { Spheres } from './spheres.js';
 import { LightProbeVolume as Volume } from './three.js';
+import { gather, materialsOf } from './three-spheres.js';
 import { lampionWgsl } from './wgsl.js';
 
 // three declares a buffer only where a node reads it: the functions below are given an element of each.
@@ -52,7 +53,7 @@ export class SphereLights {
         const { count, center, radius, radiance } = gather(scene, this.spheres);
         if (count > most)
             throw new RangeError(`SphereLights: there are ${count} lights, and most is ${most}`);
-        this.patches.addScene(scene);
+        this.patches.addAll(materialsOf(scene));
         array[0] = count;
         for (let i = 0; i < count; i++) {
             array.set(center.subarray(3 * i, 3 * i + 3), 8 * i + 4);
