@@ -39,7 +39,7 @@ function add(geometry, options) {
 function addBalls() {
     const white = { name: 'matte', color: 0xffffff, roughness: 1 };
     add(new THREE.PlaneGeometry(9, 9), matte ? white : { color: 0x998877, roughness: 0.7 }).rotation.x = -Math.PI / 2;
-    const ball = new THREE.SphereGeometry(0.45, 96, 64);
+    const ball = new THREE.SphereGeometry(0.45, 128, 64);
     for (let i = 0; i < 8; i++) {
         const metal = i % 2, look = { color: metal ? 0xd0a050 : 0x4060a0, metalness: metal, roughness: 0.3 + 0.1 * i };
         add(ball, matte ? white : look)

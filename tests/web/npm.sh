@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # The npm package: the same bytes from the same commit, structs where C has them, every function in node (npm.mjs), types
-# that agree with the code, and three.js in a headless browser against `lampion render` of the scenes that pages export. It
-# needs Emscripten, npm, node and Chromium, and three, which package-lock.json names, from npm's registry or its cache.
+# that agree with the code, and three.js, Babylon.js and PlayCanvas in a headless browser against `lampion render` of the
+# scenes that pages of three export. It needs Emscripten, npm, node and Chromium, and the engines, which the examples'
+# package-lock.json name, from npm's registry or its cache.
 set -eu
 . tests/checks/common.sh
 export ASAN_OPTIONS=detect_leaks=0 # GL drivers leak at exit
@@ -20,7 +21,7 @@ done
 package=$(echo "$WORK"/once/lampion-*.tgz)
 cmp -s "$package" "$WORK/twice/$(basename "$package")" || fail "packed twice, the package differs"
 tar -tzf "$package" >"$WORK/files"
-for file in README.md LICENSE index.js index.d.ts api.d.ts three.js lampion.wasm lampion-scalar.wasm shaders/lampion.glsl; do
+for file in README.md LICENSE index.js index.d.ts api.d.ts three.js babylon.js playcanvas.js expanded.js lampion.wasm lampion-scalar.wasm shaders/lampion.glsl; do
     grep -qx "package/$file" "$WORK/files" || fail "the package lacks $file"
 done
 
@@ -42,16 +43,23 @@ END
 emcc -std=c11 -Iinclude -fsyntax-only "$WORK/layout.c" 2>"$WORK/log" || fail "$(head -c 2000 "$WORK/log")"
 
 # As a user has it: a fresh folder, three and the package.
-page=$WORK/page
-mkdir "$page"
-cp examples/three/* "$page"
-cd "$page"
 export XDG_CACHE_HOME="$WORK/cache"
-npm ci --ignore-scripts --no-audit --no-fund --fetch-retries 0 --fetch-timeout 60000 >"$WORK/log" 2>&1 || {
-    ! grep -Eq 'EINTEGRITY|EUSAGE|EJSONPARSE' "$WORK/log" || fail "$(cat "$WORK/log")"
-    skip "npm cannot reach its registry"
+# enter ENGINE: its example, installed.
+enter() {
+    mkdir -p "$WORK/examples/$1"
+    cp "$SOURCE/examples/$1"/* "$WORK/examples/$1"
+    cd "$WORK/examples/$1"
+    npm ci --ignore-scripts --no-audit --no-fund --fetch-retries 0 --fetch-timeout 60000 >"$WORK/log" 2>&1 || {
+        ! grep -Eq 'EINTEGRITY|EUSAGE|EJSONPARSE' "$WORK/log" || fail "$(cat "$WORK/log")"
+        skip "npm cannot reach its registry"
+    }
+    npm install --no-save --offline --no-audit --no-fund "$package" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
 }
-npm install --no-save --offline --no-audit --no-fund "$package" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+for engine in babylon playcanvas; do
+    enter $engine
+done
+enter three
+page=$WORK/examples/three
 cp "$SOURCE/tests/web/npm.mjs" .
 node npm.mjs >"$WORK/log" 2>&1 || fail "$(tail -c 3000 "$WORK/log")"
 cp "$SOURCE/examples/npm/relight.mjs" .
@@ -75,14 +83,29 @@ declare module 'three' {
     export class Quaternion {}
 }
 END
-    tsc --noEmit --strict --target es2022 --module nodenext --moduleResolution nodenext --lib es2022,dom three.d.ts npm.ts >"$WORK/log" ||
+    # and of the other engines'
+    cat >engines.d.ts <<'END'
+declare module '@babylonjs/core/scene.js' { export class Scene {} }
+declare module '@babylonjs/core/Materials/material.js' { export class Material {} }
+declare module '@babylonjs/core/Maths/math.color.js' { export class Color3 {} }
+declare module '@babylonjs/core/Maths/math.vector.js' { export class Vector3 { constructor(x: number, y: number, z: number) } }
+declare module '@babylonjs/core/Meshes/transformNode.js' { export class TransformNode { constructor(name: string, scene: object) } }
+declare module 'playcanvas' {
+    export class AppBase {}
+    export class Color {}
+    export class Entity { constructor(name: string) }
+    export class Material {}
+    export class Vec3 { constructor(x: number, y: number, z: number) }
+}
+END
+    tsc --noEmit --strict --target es2022 --module nodenext --moduleResolution nodenext --lib es2022,dom three.d.ts engines.d.ts npm.ts >"$WORK/log" ||
         fail "$(head -c 2000 "$WORK/log")"
 fi
 
 # draw NAME PAGE OPTION…: writes NAME.exr by the page, and truth.exr of the scene that it exports by lampion render.
 draw() {
     name=$1
-    node "$SOURCE/tests/web/three.mjs" . "$2" >"$WORK/log" 2>&1 || fail "$name: $(cat "$WORK/log")"
+    node "$SOURCE/tests/web/receive.mjs" . "$2" three.exr >"$WORK/log" 2>&1 || fail "$name: $(cat "$WORK/log")"
     shift 2
     mv three.exr "$name.exr"
     "$PROGRAM" render scene.gltf --lights lights.json --hide-lights --environment none --no-shadows --size 320x200 "$@" -o truth.exr
@@ -105,6 +128,24 @@ within volume 0.02 || fail "a volume of probes: $(cat "$WORK/log")"
 draw webgpu '?export&volume&webgpu' --bands 3 --material matte=lambert:1,1,1
 within webgpu 0.02 || fail "a volume of probes by WebGPU: $(cat "$WORK/log")"
 ! within probe 0.02 || fail "probes that are missing go unseen"
+
+# The same scenes by other engines, whose meshes are three's; disposed of, the lights are gone.
+cp truth.exr volume-truth.exr
+draw alone '?export&alone' --bands 16
+cp truth.exr alone-truth.exr
+for engine in babylon playcanvas; do
+    for scene in alone volume; do
+        node "$SOURCE/tests/web/receive.mjs" .. "$engine/index.html?export&$scene" disposed.floats >"$WORK/log" 2>&1 || fail "$engine: $(cat "$WORK/log")"
+        node "$SOURCE/tests/web/exr.mjs" ../image.floats 320 200 $engine-$scene.exr
+        cp $scene-truth.exr truth.exr
+        [ $scene = alone ] && bound=2e-5 || bound=0.02
+        within $engine-$scene $bound || fail "$engine, $scene: $(cat "$WORK/log")"
+        cat "$WORK/log"
+        node -e 'process.exit(new Float32Array(fs.readFileSync("../disposed.floats").buffer).some((value, i) => i % 4 < 3 && value) ? 1 : 0)' ||
+            fail "$engine, $scene: light is left"
+    done
+    ! within $engine-alone 0.02 || fail "$engine: probes and lights look alike"
+done
 
 # The README's block is the module of the page of docs/npm.md, which is run with the lines that export it.
 code_blocks "$SOURCE/README.md" js >readme.js

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 // npm.ts: what the npm package's types allow and refuse; compiled, not run.
 import { Box3, LightProbe, MeshStandardMaterial, Quaternion, Scene } from 'three';
+import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
+import { Scene as BabylonScene } from '@babylonjs/core/scene.js';
+import { AppBase, Entity, Vec3 } from 'playcanvas';
 import { LampionError, compileLampion, load } from 'lampion';
 import type { Light, Surfaces } from 'lampion';
+import { LightProbeVolume as BabylonVolume, SphereLight as BabylonLight, SphereLights as BabylonLights } from 'lampion/babylon';
+import { LightProbeVolume as PlayCanvasVolume, SphereLight as PlayCanvasLight, SphereLights as PlayCanvasLights } from 'lampion/playcanvas';
 import { ProbeGrid } from 'lampion/probes';
 import { LightProbeVolume as NodeVolume, SphereLights as NodeLights } from 'lampion/three-webgpu';
 import { lampionWgsl } from 'lampion/wgsl';
@@ -51,3 +56,14 @@ const text: string = lampionWgsl({ bands: 3, window: 'hanning', ggx: true });
 lampionWgsl({ bands: 3, window: 'hann' }).includes(text);
 new NodeLights(lmp, scene, { bands: 5, most: 10 }).update();
 new NodeVolume(lmp, new Box3(), [2, 2, 2]).update(scene);
+
+const area: { min: Vector3, max: Vector3, size: [number, number, number] } = { min: new Vector3(0, 0, 0), max: new Vector3(1, 1, 1), size: [2, 2, 2] };
+const bulb = new BabylonLight('bulb', new BabylonScene(), { radius: 0.2 });
+bulb.radiance = 2 * bulb.intensity;
+new BabylonLights(lmp, new BabylonScene(), { bands: 5 }).update();
+new BabylonVolume(lmp, new BabylonScene(), area).addScene(new BabylonScene());
+// @ts-expect-error a scene's place is an application's
+new PlayCanvasLights(lmp).update();
+const globe: Entity = new PlayCanvasLight('globe', { intensity: 3 });
+new PlayCanvasVolume(lmp, new AppBase(), { ...area, min: new Vec3(0, 0, 0), max: new Vec3(1, 1, 1) }).update();
+console.log(globe);

@@ -4,7 +4,7 @@ import { createServer } from 'node:http';
 import { readFile, writeFile } from 'node:fs/promises';
 import { basename, extname, normalize } from 'node:path';
 
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json', '.wasm': 'application/wasm' };
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.json': 'application/json', '.wasm': 'application/wasm' };
 
 // Returns the address of FOLDER. What a page sends (PUT) is written into it, and its name is given to `received`.
 export async function serve(folder, received = () => {}) {
