@@ -62,6 +62,9 @@ class Error(Exception):
         self.offset = offset
 
 
+Error.__module__ = "lampion"
+
+
 def check(result: int, error: Any = None) -> None:
     """Raises what a result other than LMP_OK says; error is an lmp_parse_error."""
     if result == lib.LMP_OK:

@@ -79,7 +79,8 @@ def read_object(ctype: str, read: Callable, data: Any) -> Any:
     try:
         buffer = ffi.from_buffer(data)
     except (TypeError, ValueError):
-        raise TypeError(f"data must be bytes, not {type(data).__name__}") from None
+        raise TypeError("data must be bytes, such as pathlib.Path(name).read_bytes(), "
+                        f"not {type(data).__name__}") from None
     place = ffi.new(ctype + " **")
     error = ffi.new("lmp_parse_error *")
     check(read(ffi.NULL, buffer, len(buffer), error, place), error)

@@ -47,14 +47,19 @@ def render(scene: str | os.PathLike, *, size: tuple[int, int] = (640, 360),
     width, height = (integer("size", number, 1, 16384) for number in size)
     program = os.environ.get("LAMPION_PROGRAM") or shutil.which("lampion")
     if not program:
-        raise Error("the program lampion is not installed: LAMPION_PROGRAM may name it", "program")
+        raise Error("the program lampion is not on PATH, and LAMPION_PROGRAM does not name it: "
+                    "it is a package of its own", "program")
     with tempfile.TemporaryDirectory(prefix="lampion-") as folder:
         image = Path(folder, "image.exr")
         # What follows -- cannot be taken for an option.
         command = [program, "render", f"--size={width}x{height}", f"--output={image}", "--quiet",
                    *_arguments(options), "--", os.fspath(scene)]
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE, timeout=timeout, check=False)
+        try:
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, timeout=timeout, check=False)
+        except OSError as problem:
+            raise Error(f"the program {program} does not start: {problem.strerror}",
+                        "program") from None
         if done.returncode or not image.exists():
             lines = done.stderr.decode(errors="replace").strip().splitlines()
             line = lines[-1] if lines else f"{program} ended with status {done.returncode}"

@@ -95,7 +95,7 @@ class Render(Case):
 
     def test_without_the_program(self):
         with mock.patch.dict(os.environ, {"LAMPION_PROGRAM": "", "PATH": "/nonexistent"}):
-            self.refused("not installed", lampion.render, "builtin:ball", kind=lampion.Error)
+            self.refused("is not on PATH", lampion.render, "builtin:ball", kind=lampion.Error)
 
     def test_other_files_are_refused(self):
         for data in (b"", b"no image at all", b"v/1\x01\x02\0\0\0"):
