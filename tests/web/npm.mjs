@@ -444,7 +444,7 @@ assert.deepEqual(missing, [], 'functions that nothing calls');
         [() => lmp.sh_eval(2.5, [0, 0, 1], sh), /bands is 2.5/],
         [() => lmp.sh_eval('3', [0, 0, 1], sh), /bands is not a number/],
         [() => lmp.sh_eval(3, [0, 0], sh), /direction has 2 numbers, not 3/],
-        [() => lmp.sh_eval(3, null, sh), /direction is not an object/],
+        [() => lmp.sh_eval(3, null, sh), /direction is null, not an object or 3 numbers/],
         [() => lmp.sh_eval(3, { x: 0, y: 0, w: 1 }, sh), /direction.w is not a member/],
         [() => lmp.sh_eval(3, [0, 0, 1], [0, 0, 0, 0, 0, 0, 0, 0, 0]), /sh is not a Float32Array/],
         [() => lmp.sh_eval(3, [0, 0, 1], null), /sh is missing/],
@@ -460,12 +460,17 @@ assert.deepEqual(missing, [], 'functions that nothing calls');
         [() => lmp.light_project(3, [sphere], 2, [0, 0, 0], floats(27)), /lights has 1 elements, and 2 are needed/],
         [() => lmp.light_project(3, [{ ...sphere, radius: 'big' }], 1, [0, 0, 0], floats(27)), /lights\[0\].radius is not a number/],
         [() => lmp.light_project(3, [{ radious: 1 }], 1, [0, 0, 0], floats(27)), /radious is not a member/],
+        [() => lmp.light_project(3, [{ kind: lmp.LIGHT_SPHERES }], 1, [0, 0, 0], floats(27)), /kind is undefined/],
+        [() => lmp.light_project(3, [{ radiance: '#fff' }], 1, [0, 0, 0], floats(27)), /radiance is "#fff", not an object or 3 numbers/],
         [() => lmp.sphere_sum_n(3, { center: floats(3), radius: floats(1) }, 2, null, floats(3), 1, floats(27)), /center has 3 values, and 6 are needed/],
         [() => lmp.field_update({}, [], 0), /field is not an lmp_field/],
         [() => lmp.shade(null, { kind: lmp.MATERIAL_TABLE, table: lmp.sh_product_create(2) }, { normal: [0, 0, 1], view: [0, 0, 1] }, [], 0), /table is not an lmp_brdf_table/],
         [() => lmp.structs('lamp', 1), /there is no struct lmp_lamp/],
         [() => lmp.free(floats(1)), /not of this instance's memory/],
+        [() => lmp.free(made.floats(2).subarray(1)), /freed, or is a part/],
         [() => lmp.floats(1e9), LampionError],
+        [() => lmp.floats(-1), /-1 is not a number of elements/],
+        [() => lmp.floats('a'), /a is not a number of elements/],
         [() => lmp.field_create({ nodes: [500, 500, 500], bands: 8 }), LampionError],
     ];
     for (const [run, fault] of wrong)
@@ -473,7 +478,9 @@ assert.deepEqual(missing, [], 'functions that nothing calls');
             assert.throws(run, fault instanceof RegExp ? { message: fault } : fault);
     const all = made.floats(10 << 20); // of 16M floats: nothing of the above is kept
     made.free(all);
+    assert.throws(() => made.free(all), /this array was freed/);
     await assert.rejects(load({ memory: 1 }), RangeError);
+    await assert.rejects(load({ memori: 1 << 24 }), /no option memori/);
     await assert.rejects(load({ source: new Uint8Array(8) }), WebAssembly.CompileError);
 }
 
@@ -481,6 +488,8 @@ assert.deepEqual(missing, [], 'functions that nothing calls');
 {
     const scalar = await load({ simd: false }), module = await compileLampion(), twin = await load({ source: module });
     assert.equal(scalar.cpu_name(), 'scalar');
+    assert.throws(() => scalar.field_describe(made.field_create({ bands: 3 })), /belongs to another instance/);
+    assert.throws(() => scalar.light_irradiance(made.structs('light', 1), 1, [0, 0, 0], [0, 1, 0]), /belongs to another instance/);
     const points = Float32Array.from({ length: 300 }, (none, i) => Math.sin(i)), spheres = {
         center: Float32Array.from({ length: 96 }, (none, i) => 3 * Math.cos(i)), radius: floats(32).fill(0.3), radiance: floats(96).fill(1),
     };
@@ -494,5 +503,34 @@ assert.deepEqual(missing, [], 'functions that nothing calls');
     for (const name of ['lampion.wasm', 'lampion-scalar.wasm'])
         assert.ok(WebAssembly.Module.exports(new WebAssembly.Module(readFileSync(`node_modules/lampion/${name}`))).length > 160);
 }
+
+// --- three.js, as far as it needs no browser -----------------------------------------------------
+{
+    const { Box3, Color, MeshStandardMaterial, Mesh, Scene, SphereGeometry, Vector3 } = await import('three');
+    const { LightProbeVolume, SphereLight, SphereLights } = await import('lampion/three');
+    const kind = lmp.LIGHT_RECTANGLE, half = [new Vector3(1, 0, 0), new Vector3(0, 1, 0)], sh = floats(27), same = floats(27);
+    lmp.light_project(3, [{ kind, half, position: new Vector3(0, 0, 3), radiance: new Color(1, 2, 3) }], 1, [0, 0, 0], sh);
+    lmp.light_project(3, [{ kind, half: [[1, 0, 0], [0, 1, 0]], position: [0, 0, 3], radiance: [1, 2, 3] }], 1, [0, 0, 0], same);
+    assert.deepEqual(sh, same, "three's vectors and colors");
+    const scene = new Scene(), material = new MeshStandardMaterial({ name: 'clay' });
+    scene.add(new Mesh(new SphereGeometry(), material), new SphereLight());
+    const lights = new SphereLights(made, scene), volume = new LightProbeVolume(made, new Box3(new Vector3(), new Vector3(1, 1, 1)), [2, 2, 2]);
+    for (const again of [() => volume.add(material), () => volume.addScene(scene), () => new SphereLights(made, scene)])
+        assert.throws(again, /"clay" is already lit/);
+    assert.throws(() => new SphereLights(load(), scene), /not what load\(\) resolves to/);
+    assert.throws(() => volume.update(), /takes the scene/);
+    lights.dispose();
+    lights.dispose(); // frees nothing twice
+    assert.throws(() => lights.update(), /disposed of/);
+    volume.addScene(scene);
+    volume.update(scene);
+    volume.dispose();
+    volume.dispose();
+    assert.throws(() => volume.update(scene), /disposed of/);
+    const arrays = Array.from({ length: 64 }, () => made.floats(100));
+    assert.equal(new Set(arrays.map(({ byteOffset }) => byteOffset)).size, 64);
+    arrays.forEach((array) => made.free(array));
+}
+assert.deepEqual([lmp.SH_COUNT(3), lmp.SH_INDEX(2, -1), lmp.SH_ROTATION_COUNT(3)], [9, 5, 35]);
 assert.ok(glsl.includes('lmp_shade_zonal') && lampionWgsl({ bands: 3 }).includes('fn lmp_shade_zonal'));
 console.log(`${called.size} functions`);

@@ -10,6 +10,7 @@ import { LightProbeVolume as BabylonVolume, SphereLight as BabylonLight, SphereL
 import { LightProbeVolume as PlayCanvasVolume, SphereLight as PlayCanvasLight, SphereLights as PlayCanvasLights } from 'lampion/playcanvas';
 import { ProbeGrid } from 'lampion/probes';
 import { LightProbeVolume as NodeVolume, SphereLights as NodeLights } from 'lampion/three-webgpu';
+import { lampion } from 'lampion/shaders';
 import { lampionWgsl } from 'lampion/wgsl';
 import { LightProbeVolume, SphereLight, SphereLights, SplatLights, lightProbe } from 'lampion/three';
 
@@ -40,6 +41,10 @@ lmp.sh_eval(3, [0, 0, 1]);
 // @ts-expect-error an object of another kind
 lmp.field_update(lmp.sh_product_create(3), [lamp], 1);
 try { await compileLampion(); } catch (error) { if (error instanceof LampionError) console.log(error.code, total, one, whole.r, series.g, sign); }
+
+const parts: Light = { kind: lmp.LIGHT_RECTANGLE, half: [{ x: 1, y: 0, z: 0 }, [0, 0, 1]] };
+lmp.field_create({ bands: 3 })[Symbol.dispose]();
+const values: number = lmp.SH_COUNT(3) + (parts.half?.length ?? 0), source: string = lampion;
 
 const scene = new Scene(), glow = new SphereLight(0xffffff, 1, 0.1);
 scene.add(glow);

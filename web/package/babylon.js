@@ -30,7 +30,7 @@ export class SphereLight extends TransformNode {
 }
 
 function gather(scene, spheres) {
-    spheres.count = 0;
+    spheres.clear();
     for (const node of scene.transformNodes)
         if (node instanceof SphereLight && node.isEnabled()) {
             node.computeWorldMatrix(true);

@@ -24,8 +24,9 @@ export class LampionError extends Error {
 
 // An object of C's, until its destroy function.
 export class Handle {
-    constructor(kind, pointer, destroy) {
+    constructor(caller, kind, pointer, destroy) {
         Object.assign(this, { kind, pointer });
+        Object.defineProperty(this, 'caller', { value: caller });
         if (destroy && Symbol.dispose)
             this[Symbol.dispose] = () => this.pointer && destroy(this);
     }
@@ -136,16 +137,19 @@ export class Caller {
         if (arrays.has(type))
             return this.writeArray(type, at, value, name, extent);
         if (value === null || typeof value !== 'object')
-            throw new TypeError(`${name} is not an object`);
+            throw new TypeError(`${name} is ${typeof value === 'string' ? JSON.stringify(value) : String(value)}, not an object${plainFloats(type) ? ` or ${structs[type].members.length} numbers` : ''}`);
         const { members } = structs[type];
-        if (value.length !== undefined && plainFloats(type)) { // [x, y, z]
+        if (typeof value.length === 'number' && plainFloats(type)) { // [x, y, z]
             if (value.length !== members.length)
                 throw new TypeError(`${name} has ${value.length} numbers, not ${members.length}`);
             return members.forEach(([one, member, offset], i) => this.write(member, at + offset, value[i], `${name}[${i}]`));
         }
-        for (const key in value)
-            if (!members.some(([one]) => one === key))
+        for (const key of Object.keys(value)) {
+            if (!members.some(([one]) => one === key) && !/^is[A-Z]/.test(key)) // such as isColor of three's colors
                 throw new TypeError(`${name}.${key} is not a member of lmp_${type}`);
+            if (value[key] === undefined)
+                throw new TypeError(`${name}.${key} is undefined`);
+        }
         const whole = memberExtents[type] && Object.fromEntries(members.map(([one]) => [one, value[one] ?? 0]));
         for (const [one, member, offset] of members)
             if (value[one] !== undefined)
@@ -202,6 +206,11 @@ export class Caller {
         return at;
     }
 
+    own({ caller }, name) {
+        if (caller !== this)
+            throw new TypeError(`${name} belongs to another instance, of another load()`);
+    }
+
     enough(length, needed, name) {
         if (length < needed)
             throw new RangeError(`${name} has ${length} elements, and ${needed} are needed`);
@@ -212,6 +221,7 @@ export class Caller {
         if (value instanceof Structs) {
             if (value.type !== to)
                 throw new TypeError(`${name} holds lmp_${value.type}, not lmp_${to}`);
+            this.own(value, name);
             this.enough(value.length, extent, name);
             return value.pointer;
         }
@@ -237,6 +247,7 @@ export class Caller {
                 throw new TypeError(`${name} is not an lmp_${to}`);
             if (!value.pointer)
                 throw new TypeError(`${name} was destroyed`);
+            this.own(value, name);
             return value.pointer;
         }
         if (value instanceof Float32Array && plainFloats(to))
@@ -342,7 +353,7 @@ export class Caller {
     }
 
     handle(kind, pointer, { bands } = {}) {
-        const handle = new Handle(kind, pointer, this.api[`${kind}_destroy`]);
+        const handle = new Handle(this, kind, pointer, this.api[`${kind}_destroy`]);
         return bands === undefined ? handle : Object.assign(handle, { bands });
     }
 
@@ -360,7 +371,7 @@ export class Caller {
         const count = extents[`${name}.result`]?.(args, this.api);
         if (count !== undefined)
             return this.list(result.to, value, count);
-        return structs[result.to] ? this.read(result.to, value) : Object.assign(new Handle(result.to, value), { borrowed: true });
+        return structs[result.to] ? this.read(result.to, value) : Object.assign(new Handle(this, result.to, value), { borrowed: true });
     }
 }
 
@@ -398,7 +409,8 @@ export class Structs {
         return type === 'f32' ? { at: from(0), stride: this.size } : { x: from(0), y: from(4), z: from(8), stride: this.size };
     }
     free() {
-        this.caller.c.free(this.pointer);
+        if (this.pointer)
+            this.caller.c.free(this.pointer);
         this.pointer = this.length = 0;
     }
 }

@@ -169,7 +169,7 @@ function scriptType(type, given, many = true) {
     if (sizes[type])
         return 'number';
     if (type.of)
-        return numbers[type.of] ? (given ? 'ArrayLike<number>' : 'number[]') : `${scriptType(type.of, given)}[]`;
+        return numbers[type.of] ? (given ? 'ArrayLike<number>' : 'number[]') : scriptType(type.of, given).replace(/^.* \| .*$/, '($&)') + '[]';
     if (type.to) {
         if (type.to === 'char')
             return 'string';
@@ -219,9 +219,13 @@ ${records[name].members.map(({ name: one, type }) => `    ${one}: ${scriptType(t
 }`);
 const simple = new Set([...Object.keys(arrays), ...hidden]);
 const handles = [...new Set(callable.flatMap(({ parameters }) => parameters.map(({ type }) => type.to?.to ?? type.to).filter(opaque)))];
-const written = handles.map((name) => `export interface ${title(name)} { readonly kind: '${name}' }`);
+const written = handles.map((name) => `export interface ${title(name)} { readonly kind: '${name}'; [Symbol.dispose](): void }`);
 writeFileSync(`${out}/api.d.ts`, `// Made from Lampion's headers by generate.mjs.
 import type { Structs } from './index.js';
+
+declare global {
+    interface SymbolConstructor { readonly dispose: unique symbol } // for compilers that lack it
+}
 
 /** Vectors side by side, or three arrays with the bytes from one element to the next; a stride of 0 repeats one. */
 export type Vec3Array = Float32Array | number[] | { x: Float32Array, y: Float32Array, z: Float32Array, stride: number };

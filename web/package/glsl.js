@@ -34,7 +34,7 @@ export function tableTexels(lmp) {
 
 export function checkBands(bands) {
     if (!(Number.isInteger(bands) && bands >= 1 && bands <= 32))
-        throw new RangeError(`SphereLights: bands is ${bands}, not 1 to 32`);
+        throw new RangeError(`SphereLights: bands is ${JSON.stringify(bands)}, not 1 to 32`);
 }
 
 // Returns the functions of lights.glsl.

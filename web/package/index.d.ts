@@ -43,6 +43,10 @@ export interface Lampion extends Constants, Functions {
     halves(count: number): Uint16Array;
     uints(count: number): Uint32Array;
     bytes(count: number): Uint8Array;
+    /** Coefficients of so many bands; the index of one; and the values of sh_make_rotation. */
+    SH_COUNT(bands: number): number;
+    SH_INDEX(l: number, m: number): number;
+    SH_ROTATION_COUNT(bands: number): number;
     /** `count` structs of zeros, such as structs('light', 100). */
     structs(type: string, count: number): Structs<any>;
     free(array: ArrayBufferView | Structs<any>): void;

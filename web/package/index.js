@@ -45,7 +45,9 @@ export async function compileLampion({ source, simd = WebAssembly.validate(SIMD)
     }
 }
 
-export async function load({ memory: bytes = 64 << 20, source, simd } = {}) {
+export async function load({ memory: bytes = 64 << 20, source, simd, ...others } = {}) {
+    for (const name of Object.keys(others))
+        throw new TypeError(`load: there is no option ${name}`);
     if (!(bytes >= MEMORY_MIN && bytes <= MEMORY_MAX))
         throw new RangeError(`load: memory is ${bytes} bytes, not ${MEMORY_MIN} to ${MEMORY_MAX}`);
     const module = await compileLampion({ source, simd });
@@ -67,12 +69,15 @@ export async function load({ memory: bytes = 64 << 20, source, simd } = {}) {
     };
     const { exports: c } = await WebAssembly.instantiate(module, imports);
     c._initialize?.();
-    const caller = new Caller(c, memory);
+    const caller = new Caller(c, memory), live = new Set(); // addresses of arrays
 
     const numbers = (Kind) => (count) => {
+        if (!(Number.isInteger(count) && count >= 0))
+            throw new RangeError(`${count} is not a number of elements`);
         const at = c.malloc(count * Kind.BYTES_PER_ELEMENT || 1);
         if (!at)
             throw new LampionError(constants.ERROR_MEMORY, `${count} numbers do not fit into the memory of ${bytes} bytes that load() was given`);
+        live.add(at);
         return new Kind(memory.buffer, at, count).fill(0);
     };
     const project = (bands, nodes, f, sh, name, planes) => {
@@ -117,6 +122,9 @@ export async function load({ memory: bytes = 64 << 20, source, simd } = {}) {
             c.lampion_pack_volume(sh.byteOffset, count, halves.byteOffset);
         },
         floats: numbers(Float32Array), doubles: numbers(Float64Array), halves: numbers(Uint16Array), uints: numbers(Uint32Array), bytes: numbers(Uint8Array),
+        SH_COUNT: (bands) => bands * bands,
+        SH_INDEX: (l, m) => l * l + l + m,
+        SH_ROTATION_COUNT: (bands) => bands * (4 * bands * bands - 1) / 3,
         structs(type, count) {
             if (!structs[type])
                 throw new TypeError(`there is no struct lmp_${type}`);
@@ -127,6 +135,8 @@ export async function load({ memory: bytes = 64 << 20, source, simd } = {}) {
                 return array.free();
             if (array?.buffer !== memory.buffer)
                 throw new TypeError('free: this array is not of this instance\'s memory');
+            if (!live.delete(array.byteOffset))
+                throw new TypeError('free: this array was freed, or is a part of one');
             c.free(array.byteOffset);
         },
     });

@@ -31,6 +31,7 @@ import { basename } from 'node:path';
 for (const file of process.argv.slice(2))
     console.log(`export const ${basename(file, '.glsl')} = ${JSON.stringify(readFileSync(file, 'utf8'))};`);
 END
+sed -n 's/^export const \([a-z_]*\) = .*/export const \1: string;/p' "$folder/shaders.js" >"$folder/shaders.d.ts"
 }
 as_text shaders/lampion/*.glsl >"$folder/shaders.js"
 mkdir -p "$build/expanded"

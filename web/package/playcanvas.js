@@ -26,7 +26,7 @@ export class SphereLight extends Entity {
 }
 
 function gather(app, spheres) {
-    spheres.count = 0;
+    spheres.clear();
     for (const node of app.root.find((one) => one instanceof SphereLight && one.enabled)) {
         const { x, y, z } = node.getPosition(), { r, g, b } = node.color;
         spheres.add(node.name, [x, y, z], node.radius, [r, g, b], node.radiance);

@@ -23,11 +23,15 @@ export class ProbeGrid {
     }
     // Lights the probes by `count` spheres, arrays { center, radius, radiance }.
     light(spheres, count) {
+        if (!this.points)
+            throw new Error('ProbeGrid: light after free');
         this.lmp.sphere_sum_n(3, spheres, count, null, this.points, this.count, this.sh);
         this.lmp.pack_volume(this.sh, this.count, this.halves);
         return this.halves;
     }
     free() {
-        [this.points, this.sh, this.halves].forEach((array) => this.lmp.free(array));
+        if (this.points)
+            [this.points, this.sh, this.halves].forEach((array) => this.lmp.free(array));
+        this.points = undefined;
     }
 }

@@ -6,6 +6,8 @@ export const radianceOf = (intensity, radius) => intensity / (Math.PI * radius *
 
 export class Spheres {
     constructor(lmp) {
+        if (typeof lmp?.floats !== 'function')
+            throw new TypeError('the first argument is not what load() resolves to (await load())');
         Object.assign(this, { lmp, count: 0, capacity: 0 });
         this.reserve(64);
     }
@@ -22,10 +24,16 @@ export class Spheres {
             }
         }
     }
-    // Adds a sphere behind those there are; `count = 0` begins anew.
+    // Begins anew, without any sphere.
+    clear() {
+        if (!this.center)
+            throw new Error('this was disposed of');
+        this.count = 0;
+    }
+    // Adds a sphere behind those there are.
     add(name, position, radius, color, radiance) {
         if (!(radius > 0))
-            throw new RangeError(`the radius of SphereLight ${name} is ${radius}`);
+            throw new RangeError(`the radius of the SphereLight "${name}" is ${radius}, not above 0`);
         const i = this.count++;
         this.reserve(this.count);
         this.center.set(position, 3 * i);
@@ -36,7 +44,8 @@ export class Spheres {
         return { center: this.center, radius: this.radius, radiance: this.radiance };
     }
     free() {
-        for (const array of [this.center, this.radius, this.radiance])
-            this.lmp.free(array);
+        if (this.center)
+            [this.center, this.radius, this.radiance].forEach((array) => this.lmp.free(array));
+        this.center = this.radius = this.radiance = undefined;
     }
 }

@@ -36,7 +36,7 @@ export class SphereLight extends Object3D {
 
 // Returns the visible sphere lights of a scene as arrays in Lampion's memory, which `spheres` keeps.
 export function gather(scene, spheres) {
-    spheres.count = 0;
+    spheres.clear();
     scene.traverseVisible((light) => {
         if (light.isSphereLight)
             spheres.add(light.name, world.setFromMatrixPosition(light.matrixWorld).toArray(), light.radius, light.color.toArray(), light.radiance);

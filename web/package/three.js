@@ -92,6 +92,9 @@ export class LightProbeVolume {
         if (worker) {
             worker.postMessage({ grid: options });
             worker.onmessage = ({ data }) => this.receive(data);
+            worker.onerror = ({ message }) => {
+                throw new Error(`LightProbeVolume: ${message ?? 'its worker could not be loaded'}`);
+            };
         }
         const texture = new Data3DTexture(halves, size[0], size[1], SLABS * size[2]);
         Object.assign(texture, { format: RGBAFormat, type: HalfFloatType, minFilter: LinearFilter, magFilter: LinearFilter });
@@ -120,6 +123,8 @@ export class LightProbeVolume {
     }
     // Lights the probes by the SphereLights of a scene.
     update(scene) {
+        if (!scene)
+            throw new TypeError('LightProbeVolume: update takes the scene whose lamps light the probes');
         scene.updateMatrixWorld();
         const { count, center, radius, radiance } = gather(scene, this.spheres);
         if (!this.worker) {
