@@ -169,7 +169,7 @@ typedef struct errors {
 } errors;
 static const errors of_corners[RANGES] = { { 1e-2, 4e-3 }, { 4e-4, 4e-4 }, { 1e-4, 6e-4 } },
                     of_disks[RANGES] = { { 1e-2, 2e-2 }, { 5e-4, 8e-3 }, { 1e-4, 5e-4 } },
-                    of_tubes[RANGES] = { { 6e-2, 3e-2 }, { 4e-3, 1e-2 }, { 1e-3, 5e-3 } };
+                    of_tubes[RANGES] = { { 1e-2, 1e-2 }, { 5e-4, 4e-3 }, { 5e-4, 5e-4 } };
 
 static void compare(const lit_place *s, const float *lambda, const float values[2],
                     double irradiance, double response, errors worst[RANGES]) {

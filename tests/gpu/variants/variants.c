@@ -27,7 +27,7 @@ static void read_file(const char *path, void *data, size_t size) {
     fclose(file);
 }
 
-/* Returns 0 if all values are right. The sums for areas have errors of their own (area.glsl). */
+/* Returns 0 if all values are right. */
 static int check(const configuration *of, const given *data, const world *from, const tables *read,
                  const float *values) {
     comparison worst = { .what = "nothing" };
@@ -39,7 +39,7 @@ static int check(const configuration *of, const given *data, const world *from, 
     }
     printf("%d bands, window %d, %s, %d areas: %.1e (%s)\n", of->bands, (int)of->window,
            of->ggx ? "GGX" : "Phong", of->areas, worst.worst, worst.what);
-    return worst.worst <= (of->areas > 0 ? 5e-5 : 1e-5) ? 0 : 1;
+    return worst.worst <= 1e-5 ? 0 : 1;
 }
 
 static int check_probes(const given *data, const world *from, const float *values) {
