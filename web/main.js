@@ -94,9 +94,8 @@ function draw(scale = autoScale) {
     fit(state.scale === 'auto' ? scale : Number(state.scale));
     lights = library.lights(seconds);
     const { method, bands, window } = state, settings = { method, bands, window };
-    exposure ||= renderer.exposure(camera, lights, settings);
     const other = { method: 'preintegrated', bands: 100, window };
-    renderer.draw(camera, lights, settings, other, state.split ? state.divider : 1, exposure);
+    exposure = renderer.draw(camera, lights, settings, other, state.split ? state.divider : 1, exposure);
 }
 
 // Nothing is drawn again until something changes, which takes some frames to be measured, because the first may compile

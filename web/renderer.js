@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Draws a scene by WebGL 2 as the program does: a G-buffer, then one pass that shades and shows it.
 import { bindTexture, makeMesh, makeTable } from './mesh.js';
-import { makeProgram, stages } from './shaders.js';
+import { makeProgram, once, stages } from './shaders.js';
 import { makeTargets } from './targets.js';
 
 const AREA_TEXELS = 11, AREAS_MOST = 64; // of shared.h and demo.c
@@ -17,17 +17,16 @@ export const windows = ['none', 'hanning', 'lanczos']; // in the order of lmp_wi
 // Makes the programs that shade, each when it is first used.
 function makeShades(gl, lightsMost) {
     const programs = new Map();
-    return ({ method, bands, window }, areas, radiance) => {
+    return ({ method, bands, window }, areas) => {
         const straight = method !== 'preintegrated' ? bands : areas ? Math.min(bands, 10) : 1;
-        const key = `${method} ${straight} ${window} ${areas} ${radiance}`;
+        const key = `${method} ${straight} ${window} ${areas}`;
         if (!programs.has(key))
             programs.set(key, makeProgram(gl, stages.shade, `#define LMP_BANDS ${straight}
 #define LMP_WINDOW ${windows.indexOf(window)}
 #define SHADE lmp_shade_${method}
 ${methods[method].define}
-${areas ? '#define SHADE_AREAS' : ''}
-${radiance ? '#define RADIANCE' : ''}`, lightsMost));
-        return programs.get(key);
+${areas ? '#define SHADE_AREAS' : ''}`, lightsMost));
+        return programs.get(key)();
     };
 }
 
@@ -53,6 +52,18 @@ function makeLobes(gl, library) {
     };
 }
 
+// Begins to make a program that draws surfaces.
+function makeSurface(gl, defines, lightsMost) {
+    const made = makeProgram(gl, stages.surface, defines, lightsMost);
+    return once(() => {
+        const { program, uniforms } = made();
+        gl.useProgram(program);
+        for (const [name, unit] of Object.entries(UNITS))
+            gl.uniform1i(uniforms[name] ?? null, unit);
+        return program;
+    });
+}
+
 function makeBlock(gl, point, size) {
     const buffer = gl.createBuffer();
     gl.bindBuffer(gl.UNIFORM_BUFFER, buffer);
@@ -71,15 +82,11 @@ export function makeRenderer(canvas, library) {
     const shades = makeShades(gl, lightsMost), lobes = makeLobes(gl, library), targets = makeTargets(gl);
     const ggx = makeTable(gl, gl.RGBA32F, 32, 161, library.ggxTexels()), empty = gl.createVertexArray();
     const setFrame = makeBlock(gl, 0, 4 * 48), setLights = makeBlock(gl, 1, 48 * lightsMost);
-    const light = makeProgram(gl, stages.light, '', lightsMost);
-    const areaLight = makeProgram(gl, stages.area, '', lightsMost);
+    const surface = makeSurface(gl, '', lightsMost), light = makeProgram(gl, stages.light, '', lightsMost);
+    // what few scenes need
+    const masked = once(() => makeSurface(gl, '#define SURFACE_MASKED', lightsMost)());
+    const areaLight = once(() => makeProgram(gl, stages.area, '', lightsMost)());
     const areas = makeTable(gl, gl.RGBA32F, AREA_TEXELS, AREAS_MOST);
-    const surfaces = ['', '#define SURFACE_MASKED'].map((defines) => makeProgram(gl, stages.surface, defines, lightsMost));
-    for (const { program, uniforms } of surfaces) {
-        gl.useProgram(program);
-        for (const [name, unit] of Object.entries(UNITS))
-            gl.uniform1i(uniforms[name] ?? null, unit);
-    }
     let mesh = null;
 
     function uploadAreas(texels, count) {
@@ -87,7 +94,8 @@ export function makeRenderer(canvas, library) {
         gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, AREA_TEXELS, count, gl.RGBA, gl.FLOAT, texels);
     }
 
-    function drawGeometry(camera, lights, lampsShown = true) {
+    // Draws the surfaces; returns how many spheres and areas the shaders know.
+    function drawSurfaces(camera, lights) {
         const lightCount = Math.min(lights.spheres.length / 12, lightsMost);
         const areaCount = lightCount + lights.areaCount <= lightsMost ? lights.areaCount : 0;
         targets.resize(canvas.width, canvas.height);
@@ -97,30 +105,37 @@ export function makeRenderer(canvas, library) {
             uploadAreas(lights.areas, areaCount);
         for (let unit = 0; unit < 16; unit++)
             bindTexture(gl, unit, null);
-        targets.begin();
-        gl.frontFace(gl.CW);
+        targets.bind();
+        targets.clear();
         gl.enable(gl.DEPTH_TEST);
-        gl.depthFunc(gl.GREATER);
-        mesh.draw(surfaces[0].program, surfaces[1].program, Object.values(UNITS));
+        mesh.draw(surface, masked, Object.values(UNITS));
+        gl.disable(gl.CULL_FACE);
+        gl.disable(gl.DEPTH_TEST);
+        return { lightCount, areaCount };
+    }
+
+    // Draws the lights themselves in front of the surfaces.
+    function drawLamps({ lightCount, areaCount }) {
+        targets.bind();
         gl.bindVertexArray(empty);
-        gl.useProgram(light.program);
+        gl.enable(gl.DEPTH_TEST);
         gl.enable(gl.CULL_FACE);
         gl.cullFace(gl.FRONT);
-        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 14, lampsShown ? lightCount : 0);
-        if (areaCount && lampsShown) {
-            gl.useProgram(areaLight.program);
+        gl.useProgram(light().program);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 14, lightCount);
+        if (areaCount) {
+            gl.useProgram(areaLight().program);
             bindTexture(gl, 0, areas);
-            gl.uniform1i(areaLight.uniforms.areas_texels ?? null, 0);
+            gl.uniform1i(areaLight().uniforms.areas_texels ?? null, 0);
             gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 14, areaCount);
         }
         gl.disable(gl.CULL_FACE);
         gl.disable(gl.DEPTH_TEST);
-        return areaCount > 0;
     }
 
-    // Shades a part of what is bound, x from … to of its width.
-    function shade(settings, lit, { width, height, exposure = 1, radiance = false, from = 0, to = 1 }) {
-        const { program, uniforms } = shades(settings, lit, radiance), lobe = lobes(settings);
+    // Shades a part of what is bound, x from … to of its width; gives radiance where the exposure is 0.
+    function shade(settings, { areaCount }, { width, height, exposure = 0, from = 0, to = 1 }) {
+        const { program, uniforms } = shades(settings, areaCount > 0), lobe = lobes(settings);
         const textures = { ggx_texels: ggx, areas_texels: areas, material_constants: mesh.materialConstants, ...lobe.textures, ...targets.inputs() };
         gl.useProgram(program);
         Object.entries(textures).forEach(([name, texture], unit) => {
@@ -129,7 +144,7 @@ export function makeRenderer(canvas, library) {
         });
         gl.uniform4fv(uniforms.lobe_shape ?? null, lobe.shape);
         gl.uniform2f(uniforms.pixels, targets.width / width, targets.height / height);
-        gl.uniform1f(uniforms.exposure ?? null, exposure);
+        gl.uniform1f(uniforms.exposure, exposure);
         gl.viewport(0, 0, width, height);
         gl.enable(gl.SCISSOR_TEST);
         gl.scissor(Math.round(from * width), 0, Math.round(to * width) - Math.round(from * width), height);
@@ -138,33 +153,37 @@ export function makeRenderer(canvas, library) {
         gl.disable(gl.SCISSOR_TEST);
     }
 
+    // Returns the exposure that the program would choose for the surfaces drawn.
+    function measureExposure(settings, drawn) {
+        const width = 160, height = 90, rgba = new Float32Array(4 * width * height);
+        const target = makeTable(gl, gl.RGBA32F, width, height), framebuffer = gl.createFramebuffer();
+        gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+        gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target, 0);
+        shade(settings, drawn, { width, height });
+        gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, rgba);
+        gl.deleteFramebuffer(framebuffer);
+        gl.deleteTexture(target);
+        return library.exposure(width, height, rgba.filter((x, i) => i % 4 < 3));
+    }
+
+    gl.frontFace(gl.CW);
+    gl.depthFunc(gl.GREATER);
     return {
         gl, lightsMost,
         setScene(scene) {
             mesh?.delete();
             mesh = makeMesh(gl, scene);
         },
-        // `other` is shown from `split` on, a fraction of the width.
-        draw(camera, lights, settings, other, split, exposure) {
-            const { width, height } = canvas;
-            const lit = drawGeometry(camera, lights);
+        // `other` is shown from `split` on, a fraction of the width. Returns the exposure, which is measured where 0 is given.
+        draw(camera, lights, settings, other, split, given) {
+            const { width, height } = canvas, drawn = drawSurfaces(camera, lights);
+            const exposure = given || measureExposure(settings, drawn);
+            drawLamps(drawn);
             gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-            shade(settings, lit, { width, height, exposure, to: split });
+            shade(settings, drawn, { width, height, exposure, to: split });
             if (split < 1)
-                shade(other, lit, { width, height, exposure, from: split });
-        },
-        // Returns the exposure that the program would choose for this image.
-        exposure(camera, lights, settings) {
-            const width = 160, height = 90, rgba = new Float32Array(4 * width * height);
-            const target = makeTable(gl, gl.RGBA32F, width, height), framebuffer = gl.createFramebuffer();
-            const lit = drawGeometry(camera, lights, false);
-            gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
-            gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target, 0);
-            shade(settings, lit, { width, height, radiance: true });
-            gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, rgba);
-            gl.deleteFramebuffer(framebuffer);
-            gl.deleteTexture(target);
-            return library.exposure(width, height, rgba.filter((x, i) => i % 4 < 3));
+                shade(other, drawn, { width, height, exposure, from: split });
+            return exposure;
         },
     };
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* shade.frag - shade.comp and tone.frag in one pass, for WebGL 2: shades a pixel of the G-buffer by
- * SHADE and converts it for display or, with RADIANCE, returns its radiance. A page has no storage
- * blocks: tables are textures. */
+ * SHADE and converts it for display. A page has no storage blocks: tables are textures. */
 #include "gbuffer.glsl"
 #include "shared.h"
 #include "camera.glsl"
@@ -36,7 +35,7 @@ uniform vec4 lobe_shape;
 uniform sampler2D base_metallic, normals, roughness_kind, emissions, weights, depths;
 uniform sampler2D material_constants; /* F0 and F90 of the materials' dielectrics */
 uniform vec2 pixels;          /* pixels of the G-buffer per pixel of the target */
-uniform float exposure;
+uniform float exposure;       /* 0: the radiance is wanted */
 out vec4 color;
 
 vec3 shade_surface(ivec2 at, int kind) {
@@ -70,11 +69,10 @@ void main() {
         radiance = lights[gbuffer_decode_light(texelFetch(normals, at, 0).r)].radiance.rgb;
     else if (kind != SHARED_KIND_NONE)
         radiance = shade_surface(at, kind);
-#ifdef RADIANCE
     color = vec4(radiance, 1.0);
-#else
+    if (exposure == 0.0)
+        return;
     vec3 x = clamp(radiance * exposure, 0.0, SHARED_TONE_MAX);
     color = vec4(transfer(tone_filmic(0, x.r, x.g, x.b)), transfer(tone_filmic(1, x.r, x.g, x.b)),
                  transfer(tone_filmic(2, x.r, x.g, x.b)), 1.0);
-#endif
 }

@@ -56,21 +56,14 @@ function compile(gl, type, text) {
     return shader;
 }
 
-// Makes a program of a pair of stages, with `defines` before each. Blocks are bound where shared.h
-// says.
-export function makeProgram(gl, [vertex, fragment], defines, lightsMost) {
-    const head = `#version 300 es
-precision highp float; precision highp int; precision highp sampler2D;
-#define LAMPION_SHADER
-#define SHARED_WITHOUT_STORAGE
-${defines}\n`;
-    const limit = (text) => text.replace(/#define SHARED_LIGHTS_MAX +\d+/, `#define SHARED_LIGHTS_MAX ${lightsMost}`);
-    const program = gl.createProgram();
-    const shaders = [compile(gl, gl.VERTEX_SHADER, head + limit(translate(vertex, false))),
-        compile(gl, gl.FRAGMENT_SHADER, head + limit(translate(fragment, true)))];
-    for (const shader of shaders)
-        gl.attachShader(program, shader);
-    gl.linkProgram(program);
+// Returns a function that makes something when it is first called.
+export function once(make) {
+    let made;
+    return () => (made ??= make());
+}
+
+// Waits until a program is linked; returns it with its uniforms. Blocks are bound where shared.h says.
+function finish(gl, program, shaders) {
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
         throw new Error(`a shader does not compile: ${shaders.map((s) => gl.getShaderInfoLog(s)).join('')}${
             gl.getProgramInfoLog(program)}`);
@@ -85,4 +78,22 @@ ${defines}\n`;
         uniforms[name] = gl.getUniformLocation(program, name);
     }
     return { program, uniforms };
+}
+
+// Begins to compile a program of a pair of stages, with `defines` before each, and returns a function that waits for it:
+// browsers compile in another process, while the page builds its scene.
+export function makeProgram(gl, [vertex, fragment], defines, lightsMost) {
+    const head = `#version 300 es
+precision highp float; precision highp int; precision highp sampler2D;
+#define LAMPION_SHADER
+#define SHARED_WITHOUT_STORAGE
+${defines}\n`;
+    const limit = (text) => text.replace(/#define SHARED_LIGHTS_MAX +\d+/, `#define SHARED_LIGHTS_MAX ${lightsMost}`);
+    const program = gl.createProgram();
+    const shaders = [compile(gl, gl.VERTEX_SHADER, head + limit(translate(vertex, false))),
+        compile(gl, gl.FRAGMENT_SHADER, head + limit(translate(fragment, true)))];
+    for (const shader of shaders)
+        gl.attachShader(program, shader);
+    gl.linkProgram(program);
+    return once(() => finish(gl, program, shaders));
 }

@@ -25,10 +25,11 @@ export function makeTargets(gl) {
             gl.drawBuffers(attachments);
             Object.assign(targets, { width, height });
         },
-        // Clears the targets and binds them.
-        begin() {
+        bind() {
             gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
             gl.viewport(0, 0, targets.width, targets.height);
+        },
+        clear() {
             formats.forEach((format, i) => gl.clearBufferfv(gl.COLOR, i, [0, 0, 0, 0]));
             gl.clearBufferfv(gl.DEPTH, 0, [0]);
         },
