@@ -11,6 +11,7 @@
 #include "app/scene/gltf/gltf.h"
 #include "app/scene/load/origin.h"
 #include "app/scene/texture.h"
+#include "web/probes.h"
 
 #include <emscripten/emscripten.h>
 #include <math.h>
@@ -32,7 +33,8 @@ static struct {
     shared_light *lights; /* spheres, and then areas, of which shaders show the radiance */
     size_t sphere_count, area_count;
     float areas[AREAS_MAX][4 * LMP_AREA_TEXELS];
-    lmp_light *emitters;
+    lmp_light *emitters; /* of lights[] */
+    probes_grid probes;
     shared_material *materials;
     shared_material_constants *constants;
 } demo;
@@ -107,6 +109,8 @@ static bool take(scene_builder *builder, const char *name) {
     }
     close_scene();
     demo.world = world;
+    if (!probes_spread(&demo.probes, world.minimum, world.maximum))
+        return base_fail(&demo.error, name, "does not fit into memory");
     return fill_materials() && animation_open("orbit", &demo.world, &demo.path, &demo.error);
 }
 
@@ -228,6 +232,7 @@ EXPORT const shared_light *demo_lights(void) {
 
 static void add_sphere(const scene_light *light) {
     const lmp_light *e = &light->emitter;
+    demo.emitters[demo.sphere_count] = *e;
     demo.lights[demo.sphere_count++] = (shared_light) {
         { e->position.x, e->position.y, e->position.z, e->radius },
         { e->radiance.r, e->radiance.g, e->radiance.b,
@@ -245,6 +250,7 @@ static void add_area(const scene_light *light) {
     float *const texels = demo.areas[demo.area_count++];
     lmp_light_copy_area_texels(&light->emitter, texels);
     texels[4 * SHARED_AREA_NUMBER + 3] = light->hidden ? -1 : (float)number;
+    demo.emitters[number] = light->emitter;
     demo.lights[number] =
         (shared_light) { .radiance = { radiance.r, radiance.g, radiance.b, SHARED_LIGHT_HIDDEN } };
 }
@@ -271,6 +277,12 @@ EXPORT size_t demo_area_count(void) {
 
 EXPORT const float *demo_areas(void) {
     return demo.areas[0];
+}
+
+/* Relights the probes by the lights as demo_move_lights has moved them. */
+EXPORT const probes_grid *demo_light_probes(void) {
+    probes_light(&demo.probes, demo.emitters, demo.sphere_count + demo.area_count);
+    return &demo.probes;
 }
 
 /* Moves sphere i. */

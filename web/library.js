@@ -68,6 +68,14 @@ export async function loadLibrary() {
                 all, spheres: all.subarray(0, LIGHT * count), areaCount, areas: floats(c.demo_areas(), AREA * areaCount).slice(),
             };
         },
+        // Relights the grid of probes; returns its box, its size, and a view of its texels.
+        probes() {
+            const at = c.demo_light_probes(), size = [...words(at + 24, 3)], [texels] = words(at + 36, 1);
+            return {
+                minimum: floats(at, 3).slice(), extent: floats(at + 12, 3).slice(), size,
+                texels: floats(texels, 28 * size[0] * size[1] * size[2]),
+            };
+        },
         dragLight: (i, [x, y, z]) => c.demo_drag_light(i, x, y, z),
         ggxTexels: () => floats(c.demo_ggx_texels(), 4 * 5152),
         exposure: (width, height, rgb) => lend(rgb, (at) => c.demo_exposure(width, height, at)),

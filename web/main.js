@@ -7,15 +7,21 @@ import { makeRenderer, methods } from './renderer.js';
 
 const element = (id) => document.getElementById(id);
 const canvas = element('view'), asked = new URLSearchParams(location.hash.slice(1));
-const fewest = (scene) => (scene === 'room' ? 4 : 30); // the lights that belong to a scene
-const usual = (scene) => (scene === 'room' ? 4 : 40);
+// What suits a scene: the fewest lights, which belong to it, their number at first and, where it matters, the method.
+const usual = (scene) => ({
+    room: { fewest: 4, lights: 4 }, 'atrium:lanterns=1000': { fewest: 1000, lights: 1000, method: 'probes' },
+}[scene] ?? { fewest: 30, lights: 40 });
+const scene = asked.get('scene') ?? 'atrium';
 const state = {
-    scene: asked.get('scene') ?? 'atrium', lights: Number(asked.get('lights') ?? usual(asked.get('scene'))), bands: Number(asked.get('bands') ?? 8),
-    method: asked.get('method') ?? 'zonal', window: asked.get('window') ?? 'hanning', split: asked.has('split'),
+    scene, lights: Number(asked.get('lights') ?? usual(scene).lights), bands: Number(asked.get('bands') ?? 8),
+    method: asked.get('method') ?? usual(scene).method ?? 'zonal', window: asked.get('window') ?? 'hanning', split: asked.has('split'),
     moving: !asked.has('time'), scale: asked.get('scale') ?? 'auto', divider: Number(asked.get('split') || 0.5),
 };
 let seconds = Number(asked.get('time') ?? 0), exposure = Number(asked.get('exposure') ?? 0);
 let library, renderer = null, camera, lights;
+
+// Returns the bands that the method takes of those that are chosen; probes have three.
+const bandsTaken = () => (state.method === 'probes' ? 3 : Math.min(state.bands, methods[state.method].bands));
 
 function tell(message, wrong = false) {
     element('message').textContent = message;
@@ -93,7 +99,7 @@ function measure(spent, now) {
 function draw(scale = autoScale) {
     fit(state.scale === 'auto' ? scale : Number(state.scale));
     lights = library.lights(seconds);
-    const { method, bands, window } = state, settings = { method, bands, window };
+    const { method, window } = state, settings = { method, bands: bandsTaken(), window };
     const other = { method: 'preintegrated', bands: 100, window };
     exposure = renderer.draw(camera, lights, settings, other, state.split ? state.divider : 1, exposure);
 }
@@ -177,18 +183,18 @@ addEventListener('drop', (event) => {
 
 function showState() {
     due = FRAMES;
-    element('lights').min = fewest(state.scene);
-    for (const id of ['scene', 'lights', 'bands', 'method', 'window', 'scale'])
+    element('lights').min = usual(state.scene).fewest;
+    for (const id of ['scene', 'lights', 'method', 'window', 'scale'])
         element(id).value = state[id];
     for (const id of ['split', 'moving'])
         element(id).checked = state[id];
+    Object.assign(element('bands'), { max: methods[state.method].bands, value: bandsTaken(), disabled: state.method === 'probes' });
     for (const id of ['lights', 'bands'])
-        element(id).nextElementSibling.value = state[id];
-    element('bands').max = methods[state.method].bands;
+        element(id).nextElementSibling.value = element(id).value;
     const divider = element('divider');
     divider.hidden = !state.split;
     divider.style.left = `${100 * state.divider}%`;
-    element('left').textContent = `${state.bands} bands`;
+    element('left').textContent = `${bandsTaken()} bands`;
     element('right').textContent = '100 bands';
 }
 
@@ -196,18 +202,17 @@ let costTimer = 0;
 function tellCost() {
     clearTimeout(costTimer);
     costTimer = setTimeout(() => {
-        const [vector, scalar] = [true, false].map((vectors) => library.cost(state.bands, vectors));
-        element('cost').textContent = `The C library in WebAssembly, ${state.bands} bands: ${vector.toFixed(1)} ns ` +
+        const [vector, scalar] = [true, false].map((vectors) => library.cost(bandsTaken(), vectors));
+        element('cost').textContent = `The C library in WebAssembly, ${bandsTaken()} bands: ${vector.toFixed(1)} ns ` +
             `for a point and light with SIMD, ${scalar.toFixed(1)} without.`;
     }, 400);
 }
 
 function change(id, value) {
     state[id] = value;
-    if (id === 'method')
-        state.bands = Math.min(state.bands, methods[value].bands);
     if (id === 'scene') {
-        state.lights = usual(value);
+        state.lights = usual(value).lights;
+        state.method = usual(value).method ?? state.method;
         openBuiltin();
     }
     if (id === 'lights')
@@ -267,7 +272,7 @@ begin().catch((error) => tell(error.message, true));
 
 // for the console, and for tests
 globalThis.lampion = {
-    draw, state, rested: () => refined, lightAt: (i) => [...lights.spheres.subarray(12 * i, 12 * i + 4)],
+    draw, state, probes: () => library.probes(), spheres: () => lights.spheres, rested: () => refined, lightAt: (i) => [...lights.spheres.subarray(12 * i, 12 * i + 4)],
     project: (i) => camera.project([...lights.spheres.subarray(12 * i, 12 * i + 3)], innerWidth, innerHeight),
     pick: ([clientX, clientY]) => pick(lights.spheres, rayAt({ clientX, clientY }), 1),
     get exposure() { return exposure; },

@@ -11,6 +11,7 @@ export const methods = {
     zonal: { bands: 32, define: '' },
     coefficients: { bands: 10, define: '#define SHADE_COEFFICIENTS' },
     preintegrated: { bands: 100, define: '#define SHADE_PREINTEGRATED' },
+    probes: { bands: 3, define: '#define SHADE_PROBES' },
 };
 export const windows = ['none', 'hanning', 'lanczos']; // in the order of lmp_window
 
@@ -23,7 +24,7 @@ function makeShades(gl, lightsMost) {
         if (!programs.has(key))
             programs.set(key, makeProgram(gl, stages.shade, `#define LMP_BANDS ${straight}
 #define LMP_WINDOW ${windows.indexOf(window)}
-#define SHADE lmp_shade_${method}
+#define SHADE ${method === 'probes' ? 'shade_probes' : `lmp_shade_${method}`}
 ${methods[method].define}
 ${areas ? '#define SHADE_AREAS' : ''}`, lightsMost));
         return programs.get(key)();
@@ -64,6 +65,36 @@ function makeSurface(gl, defines, lightsMost) {
     });
 }
 
+// Makes the volume of probes as uniforms of volume.glsl, anew for each size.
+function makeVolume(gl) {
+    let texture = null, made = '';
+    return {
+        upload({ size: [x, y, z], texels }) {
+            if (made !== `${[x, y, z]}`) {
+                gl.deleteTexture(texture);
+                texture = gl.createTexture();
+                gl.bindTexture(gl.TEXTURE_3D, texture);
+                gl.texStorage3D(gl.TEXTURE_3D, 1, gl.RGBA16F, x, y, 7 * z);
+                for (const name of ['MIN_FILTER', 'MAG_FILTER'])
+                    gl.texParameteri(gl.TEXTURE_3D, gl[`TEXTURE_${name}`], gl.LINEAR);
+                for (const name of ['S', 'T', 'R'])
+                    gl.texParameteri(gl.TEXTURE_3D, gl[`TEXTURE_WRAP_${name}`], gl.CLAMP_TO_EDGE);
+                made = `${[x, y, z]}`;
+            }
+            gl.bindTexture(gl.TEXTURE_3D, texture);
+            gl.texSubImage3D(gl.TEXTURE_3D, 0, 0, 0, 0, x, y, 7 * z, gl.RGBA, gl.FLOAT, texels);
+        },
+        bind(unit, uniforms, { minimum, extent, size }) {
+            gl.activeTexture(gl.TEXTURE0 + unit);
+            gl.bindTexture(gl.TEXTURE_3D, texture);
+            gl.uniform1i(uniforms.lampionVolume, unit);
+            gl.uniform3fv(uniforms.lampionVolumeMin, minimum);
+            gl.uniform3fv(uniforms.lampionVolumeExtent, extent);
+            gl.uniform3fv(uniforms.lampionVolumeSize, size);
+        },
+    };
+}
+
 function makeBlock(gl, point, size) {
     const buffer = gl.createBuffer();
     gl.bindBuffer(gl.UNIFORM_BUFFER, buffer);
@@ -87,7 +118,8 @@ export function makeRenderer(canvas, library) {
     const masked = once(() => makeSurface(gl, '#define SURFACE_MASKED', lightsMost)());
     const areaLight = once(() => makeProgram(gl, stages.area, '', lightsMost)());
     const areas = makeTable(gl, gl.RGBA32F, AREA_TEXELS, AREAS_MOST);
-    let mesh = null;
+    const volume = makeVolume(gl);
+    let mesh = null, probes = null;
 
     function uploadAreas(texels, count) {
         bindTexture(gl, 0, areas);
@@ -135,13 +167,16 @@ export function makeRenderer(canvas, library) {
 
     // Shades a part of what is bound, x from … to of its width; gives radiance where the exposure is 0.
     function shade(settings, { areaCount }, { width, height, exposure = 0, from = 0, to = 1 }) {
-        const { program, uniforms } = shades(settings, areaCount > 0), lobe = lobes(settings);
+        const probed = settings.method === 'probes'; // by areas, too
+        const { program, uniforms } = shades(settings, areaCount > 0 && !probed), lobe = lobes(settings);
         const textures = { ggx_texels: ggx, areas_texels: areas, material_constants: mesh.materialConstants, ...lobe.textures, ...targets.inputs() };
         gl.useProgram(program);
         Object.entries(textures).forEach(([name, texture], unit) => {
             bindTexture(gl, unit, texture);
             gl.uniform1i(uniforms[name] ?? null, unit);
         });
+        if (probed)
+            volume.bind(15, uniforms, probes);
         gl.uniform4fv(uniforms.lobe_shape ?? null, lobe.shape);
         gl.uniform2f(uniforms.pixels, targets.width / width, targets.height / height);
         gl.uniform1f(uniforms.exposure, exposure);
@@ -177,6 +212,8 @@ export function makeRenderer(canvas, library) {
         // `other` is shown from `split` on, a fraction of the width. Returns the exposure, which is measured where 0 is given.
         draw(camera, lights, settings, other, split, given) {
             const { width, height } = canvas, drawn = drawSurfaces(camera, lights);
+            if (settings.method === 'probes')
+                volume.upload(probes = library.probes());
             const exposure = given || measureExposure(settings, drawn);
             drawLamps(drawn);
             gl.bindFramebuffer(gl.FRAMEBUFFER, null);

@@ -31,6 +31,13 @@ uniform vec4 lobe_shape;
 #include "preintegrated_lookup.h"
 #include "preintegrated_lobe.glsl"
 #endif
+#ifdef SHADE_PROBES
+#include "volume.glsl"
+/* The diffuse lobe alone: three bands hold irradiance, but nothing that glosses. */
+vec3 shade_probes(lmp_surface surface, lmp_lobes lobes) {
+    return lobes.diffuse * lampionVolumeIrradiance(surface.position, surface.normal) / LMP_PI;
+}
+#endif
 
 uniform sampler2D base_metallic, normals, roughness_kind, emissions, weights, depths;
 uniform sampler2D material_constants; /* F0 and F90 of the materials' dielectrics */

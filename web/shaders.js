@@ -16,6 +16,7 @@ import light from '../shaders/program/light.glsl';
 import lightFragment from '../shaders/program/light.frag';
 import lightVertex from '../shaders/program/light.vert';
 import lobe from '../shaders/lampion/preintegrated_lobe.glsl';
+import probe from '../shaders/lampion/probe.glsl';
 import lookup from '../shaders/lampion/preintegrated_lookup.h';
 import screen from '../shaders/program/screen.vert';
 import shared from '../shaders/program/shared.h';
@@ -23,13 +24,14 @@ import surfaceFragment from '../shaders/program/surface.frag';
 import surfaceVertex from '../shaders/program/surface.vert';
 import texels from '../shaders/program/texels.glsl';
 import tone from '../shaders/program/tone.h';
+import volume from './package/volume.glsl';
 import shade from './shade.frag';
 
 const files = {
     'area.glsl': area, 'area_hit.glsl': areaHit, 'areas.glsl': areas, 'texels.glsl': texels, 'light.frag': lightFragment,
     'light.vert': lightVertex, 'camera.glsl': camera, 'coat.glsl': coat, 'coefficients.glsl': coefficients, 'gbuffer.glsl': gbuffer, 'ggx.glsl': ggx,
     'lampion.glsl': lampion, 'light.glsl': light, 'preintegrated_lobe.glsl': lobe,
-    'preintegrated_lookup.h': lookup, 'shared.h': shared, 'tone.h': tone,
+    'preintegrated_lookup.h': lookup, 'probe.glsl': probe, 'shared.h': shared, 'tone.h': tone, 'volume.glsl': volume,
 };
 export const stages = {
     surface: [surfaceVertex, surfaceFragment], light: [lightVertex, lightFragment],

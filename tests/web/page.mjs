@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // page.mjs FOLDER PROGRAM WORK: the demo in FOLDER as a visitor has it, opened from disk: what it draws against
-// PROGRAM's image, lights dragged by mouse and finger, another size, a lost GPU, a dropped file, a phone.
+// PROGRAM's image, probes against their definition, lights dragged by mouse and finger, another size, a lost GPU, a
+// dropped file, a phone.
 import { strict as assert } from 'node:assert';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -20,7 +21,9 @@ async function open(hash) {
 const pixels = `(lampion.draw(), createImageBitmap(document.getElementById("view")))`;
 
 // Returns the fraction of the page's pixels that differ by more than two levels from what PROGRAM renders.
-async function rendered(...options) {
+const rendered = (...options) => differ(2, ...options);
+
+async function differ(levels, ...options) {
     const exposure = await evaluate('lampion.exposure');
     execFileSync(program, ['render', `builtin:${await evaluate('lampion.state.scene')}`, '--no-shadows', '--samples', '1', '--exposure', `${exposure}`,
         '--animate', 'orbit', '--frames', '0-0', ...options, '-o', `${work}/wanted.png`]);
@@ -37,7 +40,7 @@ async function rendered(...options) {
             return 1;
         let count = 0;
         for (let i = 0; i < shown.length; i += 4)
-            count += Math.max(...[0, 1, 2].map((c) => Math.abs(shown[i + c] - wanted[i + c]))) > 2 ? 1 : 0;
+            count += Math.max(...[0, 1, 2].map((c) => Math.abs(shown[i + c] - wanted[i + c]))) > ${levels} ? 1 : 0;
         return count / (shown.length / 4);
     })()`);
 }
@@ -91,6 +94,67 @@ async function room() {
     await open('scene=room&time=0&scale=1&closed&bands=8&method=preintegrated');
     const beside = await rendered('--size', '320x180', '--bands', '8', '--method', 'preintegrated');
     assert.ok(beside <= edges, `areas beside preintegrated lobes: ${beside}`);
+}
+
+// Returns the irradiance at a probe that faces n, by the polynomial of lampion/probe.h.
+function probed({ size, texels }, i, n) {
+    const count = size[0] * size[1] * size[2], vector = (slab) => texels.slice(4 * (slab * count + i), 4 * (slab * count + i) + 4);
+    const dot = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0), [x, y, z] = n;
+    return [0, 1, 2].map((c) => dot(vector(c), [x, y, z, 1]) + dot(vector(3 + c), [x * y, y * z, z * z, z * x]) + vector(6)[c] * (x * x - y * y));
+}
+
+// Returns the same of three bands from its definition, the sum over the bands of A_l (2l+1)/(4 pi) P_l(n · w) times the
+// integral of P_l over the cap that a sphere covers, and the part of the first band, which scales errors.
+function irradiance(spheres, point, n) {
+    const sum = [0, 0, 0], mean = [0, 0, 0];
+    for (const { center, radius, radiance } of spheres) {
+        const way = center.map((x, axis) => x - point[axis]), distance = Math.hypot(...way);
+        if (distance < 1.01 * radius)
+            return null;
+        const t = way.reduce((all, x, axis) => all + x * n[axis], 0) / distance, c = Math.sqrt(1 - (radius / distance) ** 2);
+        const bands = [Math.PI * (1 - c) / 2, Math.PI / 2 * (1 - c * c) * t, 5 * Math.PI / 16 * (c - c ** 3) * (3 * t * t - 1) / 2];
+        radiance.forEach((x, channel) => {
+            sum[channel] += x * (bands[0] + bands[1] + bands[2]);
+            mean[channel] += x * bands[0];
+        });
+    }
+    return { sum, mean };
+}
+
+// The grid follows the lights, and surfaces read it.
+async function probes() {
+    for (const time of [0, 2]) {
+        await open(`scene=balls&time=${time}&scale=0.2&closed&lights=30&method=probes`);
+        const { grid, lights } = await evaluate(`lampion.draw(), { grid: (({ minimum, extent, size, texels }) => ({ minimum: [...minimum],
+            extent: [...extent], size, texels: [...texels] }))(lampion.probes()), lights: [...lampion.spheres()] }`);
+        const spheres = Array.from({ length: lights.length / 12 }, (none, i) => lights.slice(12 * i, 12 * i + 7))
+            .map(([x, y, z, radius, ...radiance]) => ({ center: [x, y, z], radius, radiance })), { size } = grid;
+        assert.equal(spheres.length, 30);
+        let count = 0;
+        for (let i = 0; i < size[0] * size[1] * size[2]; i += 7) {
+            const at = [i % size[0], Math.floor(i / size[0]) % size[1], Math.floor(i / (size[0] * size[1]))];
+            const point = at.map((k, axis) => grid.minimum[axis] + grid.extent[axis] * k / (size[axis] - 1));
+            for (const n of [[0, 1, 0], [0.6, 0, -0.8], [-0.48, -0.6, 0.64]]) {
+                const wanted = irradiance(spheres, point, n), found = probed(grid, i, n);
+                for (const channel of wanted ? [0, 1, 2] : [])
+                    assert.ok(Math.abs(found[channel] - wanted.sum[channel]) <= 1e-4 * wanted.mean[channel], `probe ${i}: ${found}, not ${wanted.sum}`);
+                count += wanted ? 1 : 0;
+            }
+        }
+        assert.ok(count > 500, `${count} irradiances`);
+    }
+    await open('scene=room&time=0&scale=1&closed&method=probes');
+    const far = await differ(24, '--size', '320x180', '--method', 'coefficients', '--bands', '3', '--window', 'none');
+    assert.ok(far <= 0.2, `the room on probes, without its gloss: ${far}`);
+    await screenshot('probes');
+}
+
+// Lanterns that probes alone afford.
+async function lanterns() {
+    await open('scene=atrium:lanterns=1000&time=0&scale=0.5&closed');
+    assert.deepEqual(await evaluate('[lampion.state.method, lampion.spheres().length / 12, document.getElementById("scene").value]'),
+        ['probes', 1000, 'atrium:lanterns=1000']);
+    await screenshot('lanterns');
 }
 
 async function drag() {
@@ -205,7 +269,7 @@ async function phone() {
 
 let status = 0;
 try {
-    for (const step of [draw, choose, room, rest, small, drag, resize, adapt, lose, drop, phone]) {
+    for (const step of [draw, choose, room, probes, lanterns, rest, small, drag, resize, adapt, lose, drop, phone]) {
         console.time(step.name);
         await step();
         console.timeEnd(step.name);
