@@ -29,7 +29,7 @@ if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_SYSTEM_NAME STREQUAL Linux AND NO
   if(LAMPION_HAS_CF_PROTECTION)
     target_compile_options(lampion_flags INTERFACE -fcf-protection)
   endif()
-  target_link_options(lampion_flags INTERFACE LINKER:-z,relro,-z,now,-z,noexecstack)
+  target_link_options(lampion_flags INTERFACE -Wl,-z,relro,-z,now,-z,noexecstack)
 endif()
 if(LAMPION_SANITIZE)
   target_compile_options(lampion_flags INTERFACE
