@@ -226,12 +226,21 @@ void lmpi_field_set_add_all(const lmp_field *field, field_set *set) {
         set->bits[i / 64] |= (uint64_t)1 << i % 64;
 }
 
-uint32_t lmpi_field_set_next(const field_set *set, uint32_t light) {
-    for (size_t word = light / 64; word < set->words; word++) {
-        const uint64_t bits =
-            word == light / 64 ? set->bits[word] >> light % 64 << light % 64 : set->bits[word];
-        if (bits)
-            return (uint32_t)(64 * word) + (uint32_t)__builtin_ctzll(bits);
-    }
-    return FIELD_NONE;
+size_t lmpi_field_set_find(const lmp_field *field, const field_set *set, const field_box *box,
+                           size_t capacity, uint32_t *next, uint32_t *lights) {
+    size_t count = 0;
+    for (size_t word = *next / 64; word < set->words; word++)
+        for (uint64_t bits = set->bits[word]; bits; bits &= bits - 1) {
+            const uint32_t light = (uint32_t)(64 * word) + (uint32_t)__builtin_ctzll(bits);
+            if (light < *next)
+                continue;
+            if (count == capacity) {
+                *next = light;
+                return count;
+            }
+            lights[count] = light;
+            count += !box || lmpi_field_is_near(field, light, box);
+        }
+    *next = FIELD_NONE;
+    return count;
 }

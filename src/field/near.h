@@ -23,8 +23,6 @@ typedef struct field_set {
 void lmpi_field_set_clear(const lmp_field *field, field_set *set);
 void lmpi_field_set_add(const lmp_field *field, uint32_t block, field_set *set);
 void lmpi_field_set_add_all(const lmp_field *field, field_set *set);
-/* Returns the first light of the set from `light` on, or FIELD_NONE. */
-uint32_t lmpi_field_set_next(const field_set *set, uint32_t light);
 
 /* Whether the field holds a light but where it fades. Reads the light itself only if it is in the
  * list of lights near everywhere. */
@@ -55,5 +53,11 @@ static inline bool lmpi_field_is_near(const lmp_field *field, uint32_t light,
     const float reach = lmpi_field_around(sphere, field->info.reach) * 1.0001f;
     return (lmpi_field_distance2(box, sphere->center) < reach * reach) | field->everywhere[light];
 }
+
+/* Finds up to `capacity` lights of the set from *next on that the field may lack part of at some
+ * point of the box, or any lights if box is NULL, in ascending order; returns how many. Sets *next
+ * to the light to go on with, or to FIELD_NONE. */
+size_t lmpi_field_set_find(const lmp_field *field, const field_set *set, const field_box *box,
+                           size_t capacity, uint32_t *next, uint32_t *lights);
 
 #endif

@@ -99,14 +99,9 @@ static __attribute__((noinline)) void find(const lmp_field *field, uint32_t firs
     else
         lmpi_field_set_add(field, run->block, &set);
     run->first = first;
-    run->count = 0;
-    for (run->next = first; run->count < FOUND; run->next++) {
-        run->next = lmpi_field_set_next(&set, run->next);
-        if (run->next == FIELD_NONE)
-            return;
-        run->lights[run->count] = run->next;
-        run->count += run->block == FIELD_NONE || lmpi_field_is_near(field, run->next, &run->box);
-    }
+    run->next = first;
+    run->count = lmpi_field_set_find(field, &set, run->block == FIELD_NONE ? NULL : &run->box,
+                                     FOUND, &run->next, run->lights);
 }
 
 /* What is done with a light near a point and the fraction of it that the field does not hold. */

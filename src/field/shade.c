@@ -75,23 +75,11 @@ static __attribute__((noinline)) size_t find_near(const lmp_field *field, const 
                                                   const field_blocks *blocks, uint32_t *next,
                                                   uint32_t found[FOUND]) {
     const field_box box = box_of(chunk);
-    size_t count = 0;
     field_set near;
     lmpi_field_set_clear(field, &near);
     for (size_t i = 0; i < blocks->count; i++)
         lmpi_field_set_add(field, blocks->at[i], &near);
-    for (uint32_t word = *next / 64; word < near.words; word++)
-        for (uint64_t bits = near.bits[word]; bits; bits &= bits - 1) {
-            const uint32_t light = 64 * word + (uint32_t)__builtin_ctzll(bits);
-            if (count == FOUND) {
-                *next = light;
-                return count;
-            }
-            found[count] = light;
-            count += light >= *next && lmpi_field_is_near(field, light, &box);
-        }
-    *next = FIELD_NONE;
-    return count;
+    return lmpi_field_set_find(field, &near, &box, FOUND, next, found);
 }
 
 /* Surfaces that are shaded together, and lights that the zonal kernel takes at once, at most. */
