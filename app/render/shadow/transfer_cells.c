@@ -11,22 +11,18 @@ enum { FOUND_MAX = 32 };
  * is nearer to the rug's surfels than to those of the floor under it. */
 #define BESIDE 400.0f
 
-typedef struct cell {
-    int32_t x, y, z;
-} cell;
-
-static cell cell_of(const transfer_cells *c, lmp_vec3 point) {
-    return (cell) { (int32_t)floorf(point.x / c->size), (int32_t)floorf(point.y / c->size),
-                    (int32_t)floorf(point.z / c->size) };
+static transfer_cell cell_of(const transfer_cells *c, lmp_vec3 point) {
+    return (transfer_cell) { (int32_t)floorf(point.x / c->size), (int32_t)floorf(point.y / c->size),
+                             (int32_t)floorf(point.z / c->size) };
 }
 
-static uint32_t hash_of(const transfer_cells *c, cell at) {
+static uint32_t hash_of(const transfer_cells *c, transfer_cell at) {
     const uint32_t hash =
         (uint32_t)at.x * 0x9e3779b1u ^ (uint32_t)at.y * 0x85ebca6bu ^ (uint32_t)at.z * 0xc2b2ae35u;
     return (hash ^ hash >> 15) & c->mask;
 }
 
-static bool is_same(cell a, cell b) {
+static bool is_same(transfer_cell a, transfer_cell b) {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
@@ -44,6 +40,8 @@ static bool sort_surfels(transfer_surfels *s, transfer_cells *c) {
         sorted[--c->begin[hash_of(c, cell_of(c, s->at[i].position))]] = s->at[i];
     free(s->at);
     s->at = sorted;
+    for (size_t i = 0; i < s->count; i++)
+        c->cell[i] = cell_of(c, s->at[i].position);
     return true;
 }
 
@@ -52,11 +50,13 @@ bool transfer_cells_create(transfer_surfels *s, transfer_cells *c) {
     while (c->mask < s->count)
         c->mask = 2 * c->mask + 1;
     c->begin = calloc((size_t)c->mask + 2, sizeof *c->begin);
-    return c->begin && sort_surfels(s, c);
+    c->cell = malloc((s->count + 1) * sizeof *c->cell);
+    return c->begin && c->cell && sort_surfels(s, c);
 }
 
 void transfer_cells_free(transfer_cells *c) {
     free(c->begin);
+    free(c->cell);
     *c = (transfer_cells) { .begin = NULL };
 }
 
@@ -71,7 +71,7 @@ typedef struct search {
 } search;
 
 /* Considers surfel i, if it belongs to the cell. */
-static void consider(search *s, cell from, uint32_t i) {
+static void consider(search *s, transfer_cell from, uint32_t i) {
     const transfer_cells *c = s->cells;
     const lmp_transfer_surfel *at = &c->surfels->at[i];
     const lmp_vec3 away = vec_sub(at->position, s->point);
@@ -79,7 +79,7 @@ static void consider(search *s, cell from, uint32_t i) {
     const float distance2 = straight2 + BESIDE * height * height;
     const bool full = s->count == s->capacity;
     if (!(straight2 <= c->size * c->size) || (full && !(distance2 < s->distance2[s->count - 1])) ||
-        vec_dot(at->normal, s->normal) < s->cosine || !is_same(from, cell_of(c, at->position)))
+        vec_dot(at->normal, s->normal) < s->cosine || !is_same(from, c->cell[i]))
         return;
     size_t k = full ? s->count - 1 : s->count++;
     for (; k > 0 && distance2 < s->distance2[k - 1]; k--) {
@@ -90,28 +90,49 @@ static void consider(search *s, cell from, uint32_t i) {
     s->distance2[k] = distance2;
 }
 
-static void search_cell(search *s, cell at) {
+static void search_cell(search *s, transfer_cell at) {
     const transfer_cells *c = s->cells;
     const uint32_t hash = hash_of(c, at);
     for (uint32_t i = c->begin[hash]; i < c->begin[hash + 1]; i++)
         consider(s, at, i);
 }
 
-/* Searches the cells that hold all within half a cell of the point. */
-static void search_eight(search *s) {
-    const float half = s->cells->size / 2;
-    const cell low = cell_of(s->cells, vec_sub(s->point, vec(half, half, half)));
-    for (int i = 0; i < 8; i++)
-        search_cell(s, (cell) { low.x + (i & 1), low.y + (i >> 1 & 1), low.z + (i >> 2) });
+/* Returns the distance beyond which no surfel counts any more, squared. */
+static float reach2(const search *s) {
+    return s->count == s->capacity ? s->distance2[s->count - 1] : s->cells->size * s->cells->size;
 }
 
-/* Searches all cells that a surfel found can be in. */
-static void search_all(search *s) {
-    const cell middle = cell_of(s->cells, s->point);
-    s->count = 0;
-    for (int i = 0; i < 27; i++)
-        search_cell(
-            s, (cell) { middle.x + i % 3 - 1, middle.y + i / 3 % 3 - 1, middle.z + i / 9 - 1 });
+/* A cell and those around it, the nearest first: once enough is found, those further away are
+ * passed over. */
+static const int8_t cells_around[27][3] = {
+    { 0, 0, 0 },  { -1, 0, 0 },   { 1, 0, 0 },   { 0, -1, 0 },  { 0, 1, 0 },  { 0, 0, -1 },
+    { 0, 0, 1 },  { -1, -1, 0 },  { 1, -1, 0 },  { -1, 1, 0 },  { 1, 1, 0 },  { -1, 0, -1 },
+    { 1, 0, -1 }, { -1, 0, 1 },   { 1, 0, 1 },   { 0, -1, -1 }, { 0, 1, -1 }, { 0, -1, 1 },
+    { 0, 1, 1 },  { -1, -1, -1 }, { 1, -1, -1 }, { -1, 1, -1 }, { 1, 1, -1 }, { -1, -1, 1 },
+    { 1, -1, 1 }, { -1, 1, 1 },   { 1, 1, 1 },
+};
+
+/* Finds the squared distances of a coordinate from its cell, and from those below and above. */
+static void find_distances(float x, float size, int32_t at, float distance2[3]) {
+    const float below = x - (float)at * size, above = (float)(at + 1) * size - x;
+    distance2[0] = below * below;
+    distance2[1] = 0;
+    distance2[2] = above * above;
+}
+
+static void search_around(search *s) {
+    const transfer_cells *c = s->cells;
+    const transfer_cell middle = cell_of(c, s->point);
+    float x2[3], y2[3], z2[3];
+    find_distances(s->point.x, c->size, middle.x, x2);
+    find_distances(s->point.y, c->size, middle.y, y2);
+    find_distances(s->point.z, c->size, middle.z, z2);
+    for (int i = 0; i < 27; i++) {
+        const int8_t *to = cells_around[i];
+        if (x2[to[0] + 1] + y2[to[1] + 1] + z2[to[2] + 1] <= reach2(s))
+            search_cell(s,
+                        (transfer_cell) { middle.x + to[0], middle.y + to[1], middle.z + to[2] });
+    }
 }
 
 size_t transfer_cells_find(const transfer_cells *c, lmp_vec3 point, lmp_vec3 normal, float cosine,
@@ -122,9 +143,6 @@ size_t transfer_cells_find(const transfer_cells *c, lmp_vec3 point, lmp_vec3 nor
                  .cosine = cosine,
                  .capacity = capacity < FOUND_MAX ? capacity : FOUND_MAX,
                  .found = found };
-    const float half = c->size / 2;
-    search_eight(&s);
-    if (s.count < s.capacity || !(s.distance2[s.count - 1] <= half * half))
-        search_all(&s);
+    search_around(&s);
     return s.count;
 }

@@ -5,8 +5,14 @@
 
 #include "app/render/shadow/transfer_surfels.h"
 
+/* A cube of space, by its place in the grid. */
+typedef struct transfer_cell {
+    int32_t x, y, z;
+} transfer_cell;
+
 typedef struct transfer_cells {
     const transfer_surfels *surfels; /* in the order of their hashes */
+    transfer_cell *cell;             /* of each surfel */
     float size;                      /* the edge of a cell */
     uint32_t mask;                   /* of hashes */
     uint32_t *begin;                 /* per hash the first of its surfels; the last is their end */

@@ -87,7 +87,7 @@ static bool is_beside(const reading *r, size_t i, lmp_vec3 point, lmp_vec3 norma
 }
 
 static bool differ(float a, float b) {
-    return fabsf(a - b) > contrast * fmaxf(a, b);
+    return fabsf(a - b) > contrast * (a > b ? a : b);
 }
 
 /* A square of pixels around one, and which of its corners lie on the same surface as that one. */
