@@ -26,3 +26,12 @@ __version__ = (f"{constants.VERSION_MAJOR}.{constants.VERSION_MINOR}."
                f"{constants.VERSION_PATCH}")
 __all__ = ["Error", "brdf", "constants", "cpu", "field", "light", "lobe", "material",
            "preintegrated", "probe", "render", "sh", "shade", "sphere", "transfer", "version"]
+
+# Completion offers what a user may call, not what a module imports.
+for _module in (brdf, cpu, field, light, lobe, material, preintegrated, probe, sh, shade, sphere,
+                transfer):
+    setattr(_module, "__dir__", lambda names=_module.__all__: names)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

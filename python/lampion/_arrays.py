@@ -56,7 +56,8 @@ def indices(name: str, value: Any, count: int) -> np.ndarray:
     if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name} must be integers, not {array.dtype}")
     if array.size and not (0 <= array.min() and array.max() < count):
-        raise ValueError(f"{name} must be 0 … {count - 1}")
+        raise ValueError(f"{name} must be 0 … {count - 1}" if count
+                         else f"{name} must be an index, and there is none")
     return array.astype(np.uintp)
 
 

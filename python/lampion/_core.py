@@ -61,6 +61,10 @@ class Error(Exception):
         self.result = result
         self.offset = offset
 
+    def __reduce__(self) -> Any:
+        # so that processes can send it to each other
+        return Error, (str(self), self.result, self.offset)
+
 
 Error.__module__ = "lampion"
 
@@ -78,13 +82,16 @@ def check(result: int, error: Any = None) -> None:
 # --- types ------------------------------------------------------------------------------------
 
 
-def enumeration(name: str, ctype: str) -> Any:
-    """The enumerators of ctype without their common prefix, as a class of that name."""
+def enumeration(name: str, ctype: str, module: str) -> Any:
+    """The enumerators of ctype without their common prefix, as a class of a module."""
     elements = ffi.typeof(ctype).elements
     prefix = os.path.commonprefix(list(elements.values()))
     prefix = prefix[:prefix.rindex("_") + 1]
     members = {text[len(prefix):]: value for value, text in sorted(elements.items())}
-    return enum.IntEnum(name, members, module=__name__)
+    make: Any = enum.IntEnum  # of which mypy wants a name that it can read
+    made = make(name, members, module=module)
+    made.__doc__ = f"The enumerators of {ctype}."
+    return made
 
 
 _vectors = {"struct lmp_vec3": 3, "struct lmp_rgb": 3, "struct lmp_quat": 4}
@@ -147,6 +154,17 @@ def enumerator_name(ctype: Any, value: int) -> str:
     return elements[value][prefix.rindex("_") + 1:].lower()
 
 
+def _named(cls: type) -> str:
+    return f"{cls.__module__}.{cls.__qualname__}"
+
+
+def _listed(members: SimpleNamespace) -> str:
+    """The members of a record and of the records in it, as arguments would be written."""
+    return ", ".join(_listed(value) if isinstance(value, SimpleNamespace)
+                     else f"{name}={value:g}" if isinstance(value, float) else f"{name}={value!r}"
+                     for name, value in vars(members).items())
+
+
 class Owner:
     """An object of the library, which is freed with the Python object. The library's objects are
     immutable unless their methods say otherwise: threads may share them."""
@@ -155,6 +173,13 @@ class Owner:
 
     def _own(self, pointer: Any, destroy: Any) -> None:
         self._c = ffi.gc(pointer, destroy)
+
+    def __reduce__(self) -> Any:
+        raise TypeError(f"a {type(self).__name__} can be neither copied nor pickled: make another")
+
+    def __repr__(self) -> str:
+        describe = getattr(self, "describe", None)
+        return f"<{_named(type(self))}{': ' + _listed(describe()) if describe else ''}>"
 
 
 class _View:

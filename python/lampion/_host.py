@@ -117,4 +117,7 @@ class Stored(Owner):
         check(self._write(self._c, len(data), ffi.from_buffer(data)))
         return bytes(data)
 
+    def __reduce__(self) -> Any:
+        return type(self).read, (self.write(),)
+
 

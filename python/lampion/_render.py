@@ -24,13 +24,16 @@ def render(scene: str | os.PathLike, *, size: tuple[int, int] = (640, 360),
     Parameters
     ----------
     scene : path
-        A file of the user's, or one that the program has, such as ``"builtin:atrium"``.
+        A file of the user's, or one that the program has: ``"builtin:atrium"``,
+        ``"builtin:ball"``, ``"builtin:balls"`` or ``"builtin:room"``.
     size : (width, height)
+        The program alone would draw 1280 x 720.
     timeout : float, optional
         In seconds; subprocess.TimeoutExpired says that they passed.
     **options
         Those of ``lampion render --help``, with _ for -: ``bands=8``, ``random_lights=30``,
-        ``eye=(0, 2, 5)``. True gives an option that takes no value, False and None leave it out.
+        ``eye=(0, 2, 5)``. True gives an option that takes no value, None leaves it
+        out, and False turns it off: ``shadows=False``.
 
     Returns
     -------
@@ -48,7 +51,7 @@ def render(scene: str | os.PathLike, *, size: tuple[int, int] = (640, 360),
     program = os.environ.get("LAMPION_PROGRAM") or shutil.which("lampion")
     if not program:
         raise Error("the program lampion is not on PATH, and LAMPION_PROGRAM does not name it: "
-                    "it is a package of its own", "program")
+                    "install it, or let LAMPION_PROGRAM name it", "program")
     with tempfile.TemporaryDirectory(prefix="lampion-") as folder:
         image = Path(folder, "image.exr")
         # What follows -- cannot be taken for an option.
@@ -67,6 +70,10 @@ def render(scene: str | os.PathLike, *, size: tuple[int, int] = (640, 360),
         return read_exr(image.read_bytes())
 
 
+#: What is on unless an option --no-… turns it off.
+_TURNED_OFF = ("shadows", "shadow_filter")
+
+
 def _arguments(options: dict[str, Any]) -> list[str]:
     """The options as the program takes them, each in one word with its value."""
     words = []
@@ -78,6 +85,8 @@ def _arguments(options: dict[str, Any]) -> list[str]:
         option = "--" + name.replace("_", "-")
         if value is True:
             words.append(option)
+        elif value is False and name in _TURNED_OFF:
+            words.append("--no-" + name.replace("_", "-"))
         elif value is not None and value is not False:
             if isinstance(value, (tuple, list, np.ndarray)):
                 value = ",".join(str(float(number)) for number in value)

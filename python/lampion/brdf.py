@@ -16,7 +16,11 @@ from . import _arrays, _core, _host
 from ._core import constants, ffi, lib
 from .sh import Window
 
-Symmetry = _core.enumeration("Symmetry", "lmp_brdf_symmetry")
+__all__ = ["Symmetry", "Brdf", "create_lambert", "create_phong", "create_ggx", "create_sheen",
+           "create_sgd", "sgd_name", "find_sgd", "read_merl", "read_rgl", "encode_merl",
+           "encode_rgl", "Table"]
+
+Symmetry = _core.enumeration("Symmetry", "lmp_brdf_symmetry", __name__)
 _double = np.dtype(np.float64)
 
 
@@ -25,7 +29,7 @@ class Brdf(_core.Owner):
 
     __slots__ = ()
 
-    def __init__(self, pointer: Any):
+    def __init__(self, pointer: Any = None):
         if not isinstance(pointer, ffi.CData):
             raise TypeError("a Brdf is made by the functions of lampion.brdf")
         self._own(pointer, lib.lmp_brdf_destroy)
@@ -83,8 +87,8 @@ def create_phong(reflectance: ArrayLike, exponent: float) -> Brdf:
 
 def create_ggx(alpha_x: float, f0: ArrayLike, diffuse: ArrayLike = 0,
                alpha_y: float = 0) -> Brdf:
-    """glTF's microfacets: widths 0.001 … 1 along x and y (0: as along x), reflectance f0 at normal
-    incidence, 0 … 1, over a diffuse part of that albedo."""
+    """glTF's microfacets: widths alpha, the square of glTF's roughness, 0.001 … 1 along x and y (0:
+    as along x), reflectance f0 at normal incidence, 0 … 1, over a diffuse part of that albedo."""
     alpha_y = _core.number_or_0("alpha_y", alpha_y, 0.001, 1)
     ggx = ffi.new("lmp_ggx *", (_core.number("alpha_x", alpha_x, 0.001, 1), alpha_y,
                                 _arrays.color("f0", f0, 1), _arrays.color("diffuse", diffuse)))
@@ -139,7 +143,7 @@ def read_rgl(data: bytes) -> Brdf:
     return Brdf(_host.read_object("lmp_brdf", lib.lmp_brdf_read_rgl, data))
 
 
-def as_brdf(brdf: Any) -> Any:
+def _as_brdf(brdf: Any) -> Any:
     """The library's object."""
     if not isinstance(brdf, Brdf):
         raise TypeError(f"brdf must be a lampion.brdf.Brdf, not {type(brdf).__name__}")
@@ -165,7 +169,7 @@ def _encode(encode: Callable, brdf: Brdf, threads: int) -> bytes:
              ffi.callback("void(void *, void *)", release))
     host.c.allocate, host.c.release = hooks
     data, size = ffi.new("void **"), ffi.new("size_t *")
-    host.check(encode(host.c, as_brdf(brdf), data, size))
+    host.check(encode(host.c, _as_brdf(brdf), data, size))
     return bytes(ffi.buffer(data[0], size[0]))
 
 
@@ -195,8 +199,13 @@ class Table(_host.Stored):
         0 means 10, 64 (5/4 per band if that is more), and 32.
     window : str
         ``"none"``, ``"hanning"``, which the paper uses, or ``"lanczos"``.
-    window_size, tolerance, rings_max
-        As in lmp_brdf_table_desc.
+    window_size : float
+        As in `sh.make_window`.
+    tolerance : float
+        The change, relative to a view's largest coefficient, at which rings are doubled no more; 0
+        means 1e-4.
+    rings_max : int
+        The most rings of the quadrature, 16 … 2048; 0 means those that resolve the BRDF, or 512.
     symmetry : str
         ``"auto"``, ``"mirror"`` or ``"none"``.
     """
@@ -219,7 +228,7 @@ class Table(_host.Stored):
             "symmetry": _core.choice("symmetry", Symmetry, symmetry),
             "tolerance": _core.number("tolerance", tolerance, 0),
             "rings_max": _core.integer_or_0("rings_max", rings_max, 16, 2048)})
-        source = as_brdf(brdf)
+        source = _as_brdf(brdf)
         self._create(lambda host, table: lib.lmp_brdf_table_create(host, desc, source, table),
                      _host.Host(threads, progress))
 

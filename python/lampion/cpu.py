@@ -5,6 +5,8 @@ from __future__ import annotations
 from . import _core
 from ._core import ffi, lib
 
+__all__ = ["flags", "limit", "name"]
+
 
 def flags() -> int:
     """Bits of the sets that this machine has: 1 scalar, 2 SSE2 or NEON, 4 AVX2, 8 AVX-512."""

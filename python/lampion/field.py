@@ -16,6 +16,8 @@ from ._core import constants, ffi, lib
 from .material import Material
 from .shade import Surfaces, settings
 
+__all__ = ["Field", "CoarserLevel"]
+
 
 class Field(_host.Stored):
     """A field. Any number of threads may read it at once, as long as none changes it.
@@ -72,14 +74,22 @@ class Field(_host.Stored):
 
     # --- changing it --------------------------------------------------------------------------
 
+    def _fitting(self, lights: Any, others: int = 0) -> NDArray:
+        """Lights for which there is room beside `others`, and none of which is an area."""
+        listed, room = _light.as_lights(lights, areas=False), self.describe().desc.light_max
+        if others + listed.size > room:
+            raise ValueError(f"lights must be at most {room}, the field's light_max, "
+                             f"not {others + listed.size}")
+        return listed
+
     def update(self, lights: Any, *, threads: int = 1) -> None:
         """Replace all lights, none of which may be an area, and recompute every node."""
-        listed, host = _light.as_lights(lights), _host.Host(threads)
+        listed, host = self._fitting(lights), _host.Host(threads)
         host.check(lib.lmp_field_update(host.c, self._c, _light.pointer(listed), listed.size))
 
     def reset(self, lights: Any) -> None:
         """Replace all lights and compute nothing: `want` says where, `compute` does."""
-        listed = _light.as_lights(lights)
+        listed = self._fitting(lights)
         _core.check(lib.lmp_field_reset(self._c, _light.pointer(listed), listed.size))
 
     def want(self, points: ArrayLike) -> None:
@@ -113,9 +123,9 @@ class Field(_host.Stored):
 
     def add(self, light: Any) -> None:
         """Add one light, at the end."""
-        listed, host = _light.as_lights(light), _host.Host()
-        if listed.size != 1:
-            raise ValueError(f"light must be a single one, not {listed.size}")
+        if _light.as_lights(light).size != 1:
+            raise ValueError("light must be a single one")
+        listed, host = self._fitting(light, self.describe().light_count), _host.Host()
         host.check(lib.lmp_field_add(host.c, self._c, _light.pointer(listed)))
 
     def remove(self, at: int) -> None:

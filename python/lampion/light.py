@@ -19,7 +19,13 @@ from . import _arrays, _core
 from ._core import constants, ffi, lib
 from .sphere import scratch, visibilities
 
-Kind = _core.enumeration("Kind", "lmp_light_kind")
+__all__ = ["Kind", "dtype", "sphere", "point", "spot", "directional", "cap", "hemisphere",
+           "rectangle", "disk", "tube", "polygon", "join", "find_cap", "project_zonal",
+           "project_gradient", "project", "add", "irradiance", "range", "copy_area_texels",
+           "cap_irradiance_from_radiance", "cap_radiance_from_irradiance", "power_from_radiance",
+           "radiance_from_power", "intensity_from_radiance", "radiance_from_intensity"]
+
+Kind = _core.enumeration("Kind", "lmp_light_kind", __name__)
 
 #: The type of a light, of the same layout as lmp_light. ``radiance`` is also the intensity or the
 #: irradiance of the kinds that have these, and ``corner`` begins with what C calls ``half``.
@@ -142,6 +148,17 @@ def join(*lights: ArrayLike) -> NDArray:
 # --- checks -----------------------------------------------------------------------------------
 
 
+def _are_flat(corners: NDArray, count: NDArray) -> bool:
+    """Whether the first `count` corners of each polygon lie in a plane, to a thousandth of its
+    size."""
+    used = np.arange(_corners[0]) < count[..., np.newaxis]
+    away = np.where(used[..., np.newaxis], corners - corners[..., :1, :], 0).astype(float)
+    normal = np.cross(away, np.roll(away, -1, axis=-2)).sum(axis=-2, keepdims=True)
+    height = np.abs((away * normal).sum(axis=-1)).max(axis=-1)
+    size = np.linalg.norm(away, axis=-1).max(axis=-1)
+    return bool((height <= 1e-3 * size * np.linalg.norm(normal[..., 0, :], axis=-1)).all())
+
+
 def check(lights: NDArray) -> None:
     """Raise ValueError for the first member of a light that is outside its range."""
     kind = lights["kind"]
@@ -169,7 +186,9 @@ def check(lights: NDArray) -> None:
     count = of([Kind.POLYGON], "corner_count")
     if not ((count >= 3) & (count <= constants.LIGHT_CORNERS_MAX)).all():
         raise ValueError(f"corner_count must be 3 … {constants.LIGHT_CORNERS_MAX}")
-    _arrays.finite("corner", of([Kind.POLYGON], "corner"))
+    corners = _arrays.finite("corner", of([Kind.POLYGON], "corner"))
+    if corners.size and not _are_flat(corners, count):
+        raise ValueError("corner must lie in a plane")
 
 
 @functools.lru_cache(maxsize=64)

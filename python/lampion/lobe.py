@@ -16,6 +16,9 @@ from . import _arrays, _core
 from ._core import constants, ffi, lib
 from .light import as_lights, pointer
 
+__all__ = ["make_diffuse", "make_phong", "make_vmf", "project", "response", "find_ggx",
+           "copy_ggx_texels"]
+
 
 def _factors(bands: int, make: Any, *numbers: float) -> NDArray[np.float32]:
     factors = np.empty(_core.bands(bands), np.float32)

@@ -17,7 +17,10 @@ from . import brdf as _brdf
 from . import preintegrated as _preintegrated
 from ._core import constants, ffi, lib
 
-Kind = _core.enumeration("Kind", "lmp_material_kind")
+__all__ = ["Kind", "dtype", "Material", "lobes", "metallic_roughness", "table", "preintegrated",
+           "dielectric", "coat_reflectance"]
+
+Kind = _core.enumeration("Kind", "lmp_material_kind", __name__)
 
 #: The type of a material, of the same layout as lmp_material.
 dtype = _core.dtype_of("lmp_material")

@@ -15,6 +15,8 @@ from ._core import constants, ffi, lib
 from .brdf import Table, as_table
 from .sh import Window
 
+__all__ = ["Lobe", "Brdf"]
+
 _error_min = constants.PREINTEGRATED_LOBE_ERROR_MIN
 
 

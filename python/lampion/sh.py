@@ -15,7 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core, _host
 from ._core import ffi, lib
 
-Window = _core.enumeration("Window", "lmp_window")
+__all__ = ["Window", "count", "index", "rotation_count", "eval", "eval_gradient", "reconstruct",
+           "combine", "dot", "expand_zonal", "make_rotation", "make_rotation_from_matrix",
+           "rotate_z", "rotate", "rotate_by_matrix", "window_name", "make_window",
+           "make_laplacian_window", "apply_window", "project_function", "project_latlong",
+           "project_cubemap", "multiply_few", "Product", "pack_half", "unpack_half", "eval_double",
+           "eval_gradient_double", "eval_hessian_double", "make_rotation_double", "rotate_double"]
+
+Window = _core.enumeration("Window", "lmp_window", __name__)
 _double = np.dtype(np.float64)
 
 
@@ -289,6 +296,9 @@ def project_function(bands: int, function: Callable[[tuple[float, float, float]]
 def _texels(name: str, image: ArrayLike) -> NDArray:
     """An image of float32 or float16 whose strides are above 0, as C's are."""
     array = np.asarray(image)
+    if array.dtype.kind == "u" and array.dtype.itemsize <= 2:
+        raise TypeError(f"{name} must be linear radiance, not the {array.dtype} of a picture: "
+                        "convert it")
     if array.dtype not in (np.float32, np.float16):
         array = _arrays.numbers(name, array)
     if min(array.strides, default=1) <= 0 or not array.flags.aligned:
@@ -308,7 +318,7 @@ def _fill_texels(image: Any, array: NDArray) -> None:
 
 def project_latlong(bands: int, image: ArrayLike, *, azimuth: float = 0, mirrored: bool = False,
                     z_up: bool = False) -> NDArray[np.float32]:
-    """Project a latitude-longitude image of the surroundings, of at least 4 bands rows.
+    """Project a latitude-longitude image of the surroundings, which has at least 4 x `bands` rows.
 
     Parameters
     ----------
@@ -330,6 +340,8 @@ def project_latlong(bands: int, image: ArrayLike, *, azimuth: float = 0, mirrore
     if array.ndim not in (2, 3):
         raise ValueError("image must have the shape (height, width[, channels]), "
                          f"not {array.shape}")
+    if len(array) < 4 * n:
+        raise ValueError(f"image must have at least {4 * n} rows for {n} bands, not {len(array)}")
     planes = array[..., np.newaxis] if array.ndim == 2 else array
     latlong = ffi.new("lmp_latlong *")
     latlong.pixels = _arrays.pointer(planes, "void *")

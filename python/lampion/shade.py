@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The radiance that surfaces reflect to the viewer under many lights (lampion/shade.h).
 
-L_o = ∫ L(w) f_r(w, v) max(n·w, 0) dw, in n bands, clamped at 0. Visibility is not considered.
+L_o = ∫ L(w) f_r(w, v) max(n·w, 0) dw, specular parts in n bands, clamped at 0. Visibility is not
+considered.
 """
 from __future__ import annotations
 
@@ -18,7 +19,9 @@ from .light import as_lights, pointer
 from .material import Material, dtype
 from .sh import Window
 
-Method = _core.enumeration("Method", "lmp_shade_method")
+__all__ = ["Method", "shade", "environment"]
+
+Method = _core.enumeration("Method", "lmp_shade_method", __name__)
 
 
 def settings(method: str | int = "zonal", bands: int = 0, window: str | int = "none",
@@ -92,9 +95,11 @@ def shade(material: Material, position: ArrayLike, normal: ArrayLike, view: Arra
     coat_normal : array_like, (…, 3), optional
         Unit.
     method : str
-        ``"zonal"``, ``"coefficients"``, the paper's, or ``"preintegrated"``.
+        ``"zonal"``, whose diffuse parts are exact for any number of bands; ``"coefficients"``, the
+        paper's, in n bands throughout; or ``"preintegrated"``, which tables without a preintegrated
+        series take as ``"zonal"``.
     bands : int
-        0 means 10.
+        0 means 10; a table has no more than its own.
     window, window_size
         As in `sh.make_window`.
     lobe : preintegrated.Lobe, optional

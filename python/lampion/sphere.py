@@ -17,6 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._core import ffi, lib
 
+__all__ = ["project_zonal", "project", "project_double", "project_gradient", "project_all", "sum",
+           "sum_gradient", "power_from_radiance", "radiance_from_power", "intensity_from_radiance",
+           "radiance_from_intensity"]
+
 _double = np.dtype(np.float64)
 
 

@@ -16,6 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core, _host
 from ._core import constants, ffi, lib
 
+__all__ = ["NONE", "Transfer"]
+
 #: What a ray hits that finds no light, and a link that is not used.
 NONE = constants.TRANSFER_NONE
 

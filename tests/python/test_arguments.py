@@ -20,6 +20,8 @@ product = sh.Product(3)
 pre_lobe, pre_brdf = preintegrated.Lobe(3), preintegrated.Brdf(table)
 grid = field.Field(3, nodes=(3, 3, 3))
 grid.update(lights)
+small = field.Field(3, nodes=2, light_max=1)
+small.update(lights)
 bounce = transfer.Transfer(at, [up, up], 0.5, 1, [[1], [0]], probe_directions=[up],
                            probe_hits=[[1]])
 c, rgb, ways = np.ones(9), np.ones((3, 9)), unit_vectors(1, 12)
@@ -34,7 +36,7 @@ calls = [
     (sh.rotate, np.ones(35), c), (sh.rotate_by_matrix, np.eye(3), c), (sh.window_name, "none"),
     (sh.make_window, 3, "hanning", 4), (sh.make_laplacian_window, 0.5, c),
     (sh.apply_window, [1, 2, 3], c), (sh.project_function, 3, lambda v: v[0], 4),
-    (sh.project_latlong, 3, np.ones((8, 16, 3))), (sh.project_cubemap, 3, np.ones((6, 4, 4))),
+    (sh.project_latlong, 3, np.ones((12, 24, 3))), (sh.project_cubemap, 3, np.ones((6, 4, 4))),
     (sh.multiply_few, c, c), (sh.Product, 3), (product.multiply, c, c), (sh.pack_half, c),
     (sh.unpack_half, c.astype(np.float16)), (sh.eval_double, 3, up),
     (sh.eval_gradient_double, 3, up), (sh.eval_hessian_double, 3, up),
@@ -157,7 +159,13 @@ class Messages(Case):
                 ("angle must be 0 … 3.14", light.cap, up, 4, color),
                 ("direction must be unit", light.cap, [0, 2, 0], 0.1, color),
                 ("the number of corners must be 3 … 8", light.polygon, up, np.ones((9, 3)), color),
+                ("corner must lie in a plane", light.polygon, up,
+                 [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 1, 1]], color),
                 ("radiance must be finite", light.sphere, up, 1, [math.inf, 0, 0]),
+                ("image must have at least 12 rows for 3 bands, not 4", sh.project_latlong, 3,
+                 np.ones((4, 8))),
+                ("image must be linear radiance, not the uint8", sh.project_latlong, 3,
+                 np.ones((12, 24), np.uint8)),
                 ("must not be areas", light.find_cap, square, at),
                 ("must be an area", light.power_from_radiance, lights, 1),
                 ("light must be a single one", light.range, light.join(lights, lights), 1),
@@ -177,6 +185,14 @@ class Messages(Case):
                 ("method must be one of zonal", lambda: shade.shade(lobes, at, up, up, lights,
                                                                     method="magic")),
                 ("at must be 0 … 0", grid.move, [1], lights),
+                ("at must be an index, and there is none", field.Field(3).remove, 0),
+                ("lights must not be areas", grid.update, square),
+                ("lights must not be areas", grid.reset, square),
+                ("lights must not be areas", grid.add, square),
+                ("lights must be at most 1, the field's light_max, not 2", small.update,
+                 light.join(lights, lights)),
+                ("lights must be at most 1, the field's light_max, not 2", small.add, lights),
+                ("a Brdf is made by the functions", brdf.Brdf),
                 ("at must be different", grid.move, [0, 0], light.join(lights, lights)),
                 ("count must be 0 … 27", grid.copy_nodes, 0, 28),
                 ("nodes must be 2 … 1024", lambda: field.Field(3, nodes=(1, 2, 2))),
@@ -194,8 +210,8 @@ class Messages(Case):
                      visibility=[1, 1, 1])
 
     def test_what_the_library_refuses(self):
-        self.refused("", grid.update, square, kind=Error)
-        self.refused("", probe.fit, 3, [up] * 3, np.ones(3), kind=Error)
+        self.refused("these 3 samples do not determine the 9 coefficients of 3 bands", probe.fit, 3,
+                     [up] * 3, np.ones(3), kind=Error)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             self.refused("", field.Field, 3, nodes=(1024, 1024, 1024), kind=Error)

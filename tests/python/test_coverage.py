@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Every function of the public headers is called by the package, or excluded for a reason; what
 was generated from the headers has their numbers."""
+import inspect
 import os
 import re
 import unittest
@@ -31,6 +32,9 @@ def declared():
     return names
 
 
+everything = "".join(path.read_text() for path in Path(lampion.__file__).parent.glob("*.py"))
+
+
 def called():
     code = "".join(path.read_text() for path in Path(lampion.__file__).parent.glob("*.py")
                    if path.name != "_native.py")
@@ -42,6 +46,23 @@ class Coverage(unittest.TestCase):
         names = declared()
         self.assertGreater(len(names), 150)
         self.assertEqual(names - called() - excluded.keys(), set())
+
+    def test_modules_offer_what_is_theirs(self):
+        for name in lampion.__all__:
+            module = getattr(lampion, name)
+            if not inspect.ismodule(module):
+                continue
+            self.assertEqual(dir(module), sorted(module.__all__))
+            for member in module.__all__:
+                made_in = getattr(getattr(module, member), "__module__", module.__name__)
+                self.assertEqual(made_in, module.__name__, f"{name}.{member}")
+            documented = re.findall(r"^(?:def|class) ([a-z]\w*|[A-Z]\w*)",
+                                    Path(module.__file__).read_text(), re.M)
+            for member in set(documented) - set(module.__all__):
+                self.assertTrue(re.search(rf"\bimport .*\b{member}\b|\b_?{name}\.{member}\b",
+                                          everything), f"{name}.{member} is neither public nor used")
+        self.assertIn("version", dir(lampion))
+        self.assertNotIn("lib", dir(lampion))
 
     def test_what_is_excluded_exists_and_is_not_called(self):
         self.assertEqual(excluded.keys() - declared(), set())

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Objects free what they own, also after errors; many threads read at once."""
+import copy
 import gc
+import pickle
 import threading
 
 import numpy as np
@@ -15,6 +17,43 @@ def resident():
     """Bytes of this process's own memory."""
     with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[1]) * 4096
+
+
+class Copies(Case):
+    def test_what_has_bytes_is_copied_and_pickled(self):
+        grid = field.Field(3, nodes=4)
+        grid.update(lights)
+        table = brdf.Table(brdf.create_lambert(0.5), 2, views=2)
+        for thing in (grid, table, preintegrated.Lobe(3), preintegrated.Brdf(table)):
+            for other in (copy.copy(thing), copy.deepcopy(thing),
+                          pickle.loads(pickle.dumps(thing))):
+                self.assertIs(type(other), type(thing))
+                self.assertEqual(other.write(), thing.write())
+        other = copy.copy(grid)
+        other.update(light.join(lights, lights))
+        self.assertEqual((grid.describe().light_count, other.describe().light_count), (1, 2))
+
+    def test_others_say_that_they_are_not(self):
+        for thing in (sh.Product(3), brdf.create_lambert(0.5)):
+            for way in (copy.copy, copy.deepcopy, pickle.dumps):
+                with self.assertRaisesRegex(TypeError, "can be neither copied nor pickled"):
+                    way(thing)
+
+    def test_an_error_passes_between_processes(self):
+        try:
+            field.Field.read(b"no field")
+        except Error as error:
+            other = pickle.loads(pickle.dumps(error))
+            self.assertEqual((str(other), other.result, other.offset),
+                             (str(error), error.result, error.offset))
+        self.assertEqual(str(copy.copy(Error("text", "memory"))), "text")
+
+    def test_repr_tells_what_an_object_is(self):
+        grid = field.Field(3, nodes=4, light_max=8)
+        grid.update(lights)
+        for words in ("<lampion.field.Field: bands=3", "nodes=(4, 4, 4)", "light_count=1"):
+            self.assertIn(words, repr(grid))
+        self.assertEqual(repr(sh.Product(3)), "<lampion.sh.Product>")
 
 
 class Memory(Case):

@@ -55,9 +55,18 @@ class Render(Case):
                               random_lights=None, strict=False)
         self.same(same, image)
         dark = lampion.render("builtin:ball", size=(48, 40), random_lights=0, hide_lights=True,
-                              bands=4, background=(0, 0, 0.25), no_shadows=True,
+                              bands=4, background=(0, 0, 0.25), shadows=False,
                               eye=(0, 500, 0), target=np.array([0, 900, 0]))
         self.near(dark, [0, 0, 0.25], 0)  # nothing but the background
+
+    def test_false_turns_off(self):
+        made = [lampion.render("builtin:ball", size=(16, 16), **options) for options in
+                ({}, {"shadows": False}, {"no_shadows": True}, {"shadow_filter": False},
+                 {"no_shadow_filter": True})]
+        self.same(made[1], made[2])
+        self.same(made[3], made[4])
+        self.assertGreater(np.abs(made[1] - made[0]).max(), 0)
+        self.assertGreater(np.abs(made[3] - made[0]).max(), 0)
 
     def test_what_is_stored_is_what_is_read(self):
         random = np.random.default_rng(1)
