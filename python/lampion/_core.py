@@ -158,11 +158,18 @@ def _named(cls: type) -> str:
     return f"{cls.__module__}.{cls.__qualname__}"
 
 
+def _flat(members: SimpleNamespace) -> dict[str, Any]:
+    """The members of a record and of the records in it."""
+    flat = {}
+    for name, value in vars(members).items():
+        flat.update(_flat(value) if isinstance(value, SimpleNamespace) else {name: value})
+    return flat
+
+
 def _listed(members: SimpleNamespace) -> str:
-    """The members of a record and of the records in it, as arguments would be written."""
-    return ", ".join(_listed(value) if isinstance(value, SimpleNamespace)
-                     else f"{name}={value:g}" if isinstance(value, float) else f"{name}={value!r}"
-                     for name, value in vars(members).items())
+    """Members as arguments would be written."""
+    return ", ".join(f"{name}={value:g}" if isinstance(value, float) else f"{name}={value!r}"
+                     for name, value in _flat(members).items())
 
 
 class Owner:
