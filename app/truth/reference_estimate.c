@@ -300,13 +300,25 @@ static bool meet(const struct reference_candidate *c, reference_vec point, refer
         return false;
     if (c->source.is_area) {
         const reference_area_hit hit = reference_area_meet(&c->source.area, point, w);
-        *distance = BEFORE_AREA * hit.distance;
+        *distance = hit.distance;
         *density = c->density * hit.density;
         return hit.density > 0;
     }
     *distance = reference_light_distance(c->light, point, w);
     *density = c->density;
     return true;
+}
+
+/* Whether a ray along w, which ends after `path`, ends before a source at a distance from the
+ * surface. An area may be a triangle itself, to which the ray must have come from its own origin:
+ * off the surface, the way to what faces it is shorter. */
+static bool is_hidden(const struct reference_candidate *c, const reference_surface *surface,
+                      reference_vec w, double distance, double path) {
+    if (!c->source.is_area)
+        return distance > path;
+    const reference_area_hit hit =
+        reference_area_meet(&c->source.area, reference_ray_origin(surface, w), w);
+    return BEFORE_AREA * (isfinite(hit.distance) ? hit.distance : distance) > path;
 }
 
 /* Adds what arrives from a candidate in a direction, which it meets at a distance of `meet`. */
@@ -317,7 +329,7 @@ static void add_radiance(const reference_estimator *estimator, const struct refe
     double there[3] = { color[0], color[1], color[2] };
     if (c->source.is_area && estimator->emission)
         estimator->emission((size_t)(c->light - estimator->lights),
-                            reference_add(point, reference_scale(distance / BEFORE_AREA, w)), there,
+                            reference_add(point, reference_scale(distance, w)), there,
                             estimator->emission_user);
     for (int k = 0; k < 3; k++)
         radiance[k] += scale * there[k];
@@ -335,7 +347,8 @@ static double accumulate(const reference_estimator *estimator, const plan *p, re
         if (!meet(c, p->surface->position, w, i == sampled, &here, &distance))
             continue;
         density += here;
-        if ((c->source.is_area && isinf(distance)) || (estimator->visibility && distance > path))
+        if ((c->source.is_area && isinf(distance)) ||
+            (estimator->visibility && is_hidden(c, p->surface, w, distance, path)))
             continue;
         add_radiance(estimator, c, p->surface->position, w, distance, 1, radiance);
     }
@@ -372,7 +385,7 @@ static double draw_source(const struct reference_candidate *c, reference_vec poi
     if (c->source.is_area) {
         *axis = reference_area_draw(&c->source.area, point, u, v);
         const reference_area_hit hit = reference_area_meet(&c->source.area, point, *axis);
-        *distance = BEFORE_AREA * hit.distance;
+        *distance = hit.distance;
         return isfinite(hit.distance) && hit.density > 0 ? 1 / hit.density : 0;
     }
     const double t = c->source.one_minus_cos * u;
@@ -392,7 +405,8 @@ static void accumulate_series(const reference_estimator *estimator, const plan *
         if (is_sampled(estimator, &c->source)) {
             scale = draw_source(c, p->surface->position, reference_random(key, 2 * (uint64_t)i),
                                 reference_random(key, 2 * (uint64_t)i + 1), &axis, &distance);
-            if (!(scale > 0) || distance > free_path(estimator, p->surface, axis))
+            if (!(scale > 0) ||
+                is_hidden(c, p->surface, axis, distance, free_path(estimator, p->surface, axis)))
                 continue;
         }
         scale *= reference_series_at(p->surface->limit.bands, c->series, reference_dot(w, axis));

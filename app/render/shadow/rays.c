@@ -86,6 +86,9 @@ static void aim(const shadow_job *job, const shadow_points *p, shadow_lanes *wei
         shot->rays.origin[2][i] = from.z;
     }
     memcpy(shot->rays.direction, samples.direction.of, sizeof shot->rays.direction);
+    for (int i = 0; i < SHADOW_LANES; i++)
+        if (sources[i]->kind == SHADOW_AREA && shot->rays.length[i] >= 0)
+            shadow_end_at_area(shadow_lane(&p->position, i), i, &shot->rays);
 }
 
 /* Returns the reciprocal of the penumbra's width, which is at least about half a pixel. */

@@ -369,3 +369,16 @@ void shadow_sources_draw(const shadow_source *const sources[SHADOW_LANES],
             draw_around(sources[i], points, u[i], v[i], i, samples);
     }
 }
+
+void shadow_end_at_area(lmp_vec3 position, int lane, trace_rays *rays) {
+    float way[3], length2 = 0;
+    const float from[3] = { position.x, position.y, position.z };
+    for (int c = 0; c < 3; c++) {
+        way[c] = from[c] + rays->direction[c][lane] * rays->length[lane] - rays->origin[c][lane];
+        length2 += way[c] * way[c];
+    }
+    const float length = sqrtf(length2);
+    for (int c = 0; c < 3 && length > 0; c++)
+        rays->direction[c][lane] = way[c] / length;
+    rays->length[lane] = length;
+}

@@ -57,4 +57,9 @@ void shadow_sources_draw(const shadow_source *const sources[SHADOW_LANES],
                          const shadow_vectors *positions, const shadow_points *points,
                          const shadow_lanes u, const shadow_lanes v, shadow_samples *samples);
 
+/* Lets a lane's ray, which was sampled for a position, end at the sampled point of an area: it
+ * starts off the surface, from where what faces it is nearer, and would end beyond the triangle
+ * that the area may be. */
+void shadow_end_at_area(lmp_vec3 position, int lane, trace_rays *rays);
+
 #endif

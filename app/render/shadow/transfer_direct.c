@@ -126,6 +126,8 @@ static void add_sample(const lighting *l, uint32_t number, const chosen_lanes *c
         rays.start[i] = 0;
         rays.length[i] =
             i < lanes->count && cosine[i] > 0 && chosen->factor[i] > 0 ? samples.length[i] : -1;
+        if (chosen->source[i]->kind == SHADOW_AREA && rays.length[i] >= 0)
+            shadow_end_at_area(shadow_lane(&p->position, i), i, &rays);
     }
     trace_nearest_n(l->view->bvh, TRACE_LIGHT, &rays, hits);
     for (int i = 0; i < lanes->count; i++)
