@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-# blender --background --factory-startup --python cycles.py -- FOLDER SEEDS NAME MATERIAL CAMERA …: for each three words,
-# what FOLDER/NAME.obj shows under FOLDER/lights.json by Blender's Cycles, direct light alone, as NAME-1.exr to
-# NAME-SEEDS.exr. MATERIAL is lambert:COLOR or ggx:ROUGHNESS, white; CAMERA is orthographic:HEIGHT, which looks down the
-# z axis, or perspective:X,Y,Z, which looks to the origin.
+# blender --background --factory-startup --python cycles.py -- FOLDER SEEDS NAME MATERIALS CAMERA LIGHTS BOUNCES …: for
+# each five words, what FOLDER/NAME.obj shows under the lights of FOLDER/LIGHTS.json by Blender's Cycles, after so many
+# bounces, as NAME-1.exr to NAME-SEEDS.exr. MATERIALS are one or more NAME=lambert:COLOR, NAME=ggx:ROUGHNESS, which is
+# white, or NAME=glow:RADIANCE, joined by +; CAMERA is orthographic:HEIGHT, which looks down the z axis, or
+# perspective:X,Y,Z, which looks to the origin.
 import json
 import math
 import sys
@@ -24,13 +25,21 @@ def add_mesh(vertices, faces, material):
     mesh = bpy.data.meshes.new("mesh")
     mesh.from_pydata(vertices, [], faces)
     mesh.materials.append(material)
-    add("mesh", mesh)
+    return add("mesh", mesh)
 
 
 def read_obj(path):
-    words = [line.split() for line in open(path) if line.strip()]
-    vertices = [tuple(map(float, w[1:4])) for w in words if w[0] == "v"]
-    return vertices, [[int(corner.split("/")[0]) - 1 for corner in w[1:]] for w in words if w[0] == "f"]
+    """The vertices, and by their materials the faces."""
+    vertices, faces, used = [], {}, None
+    for line in open(path):
+        kind, *words = line.split() or [""]
+        if kind == "v":
+            vertices.append(tuple(map(float, words)))
+        elif kind == "usemtl":
+            used = faces.setdefault(words[0], [])
+        elif kind == "f":
+            used.append([int(corner.split("/")[0]) - 1 for corner in words])
+    return vertices, faces
 
 
 # Triangles have the same surface as a sphere, and so cover the same in the mean.
@@ -43,6 +52,51 @@ def add_sphere(center, radius, material):
     mesh.materials.append(material)
     ball = add("sphere", mesh)
     ball.location, ball.scale, ball.visible_camera = center, [scale] * 3, False
+
+
+def add_area(corners, radiance):
+    add_mesh(corners, [list(range(len(corners)))], glow(radiance)).visible_camera = False
+
+
+def corners_of(light):
+    center = Vector(light["position"])
+    if light["kind"] == "rectangle":
+        u, v = Vector(light["half_width"]), Vector(light["half_height"])
+        return [center - u - v, center + u - v, center + u + v, center - u + v]
+    count = 400
+    normal = Vector(light["direction"]).normalized()
+    u = normal.orthogonal().normalized()
+    v = normal.cross(u)
+    radius = light["radius"] * math.sqrt(2 * math.pi / count / math.sin(2 * math.pi / count))  # the same area
+    turns = [2 * math.pi * k / count for k in range(count)]
+    return [center + radius * (math.cos(turn) * u + math.sin(turn) * v) for turn in turns]
+
+
+def add_light(light):
+    if light.get("kind", "sphere") != "sphere":
+        add_area(corners_of(light), light["radiance"])
+        return
+    material = glow(light["radiance"])
+    material.cycles.sample_as_light = False  # of many triangles Cycles chooses some too rarely, and loses up to a percent
+    add_sphere(light["position"], light["radius"], material)
+
+
+def emission(radiance):
+    return shader("ShaderNodeEmission", Color=[*radiance, 1], Strength=1)
+
+
+# A light glows on the side from which its corners are counter-clockwise, and hides nothing.
+def glow(radiance):
+    material = emission(radiance)
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    front, both = nodes.new("ShaderNodeMath"), nodes.new("ShaderNodeAddShader")
+    front.operation, front.inputs[0].default_value = "SUBTRACT", 1
+    links.new(nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"], front.inputs[1])
+    links.new(front.outputs[0], nodes["Emission"].inputs["Strength"])
+    links.new(nodes["Emission"].outputs[0], both.inputs[0])
+    links.new(nodes.new("ShaderNodeBsdfTransparent").outputs[0], both.inputs[1])
+    links.new(both.outputs[0], nodes["Material Output"].inputs[0])
+    return material
 
 
 def shader(kind, **inputs):
@@ -61,9 +115,12 @@ def shader(kind, **inputs):
 
 def surface(text):
     kind, value = text.split(":")
+    numbers = list(map(float, value.split(",")))
     if kind == "lambert":
-        return shader("ShaderNodeBsdfDiffuse", Color=[float(value)] * 3 + [1], Roughness=0)
-    return shader("ShaderNodeBsdfGlossy", Color=[1, 1, 1, 1], Roughness=float(value))
+        return shader("ShaderNodeBsdfDiffuse", Color=[*(numbers * 3)[:3], 1], Roughness=0)
+    if kind == "glow":
+        return emission(numbers)
+    return shader("ShaderNodeBsdfGlossy", Color=[1, 1, 1, 1], Roughness=numbers[0])
 
 
 def add_camera(text):
@@ -82,27 +139,28 @@ def add_camera(text):
     bpy.context.scene.camera = camera
 
 
-def set_up(scene):
+def set_up(scene, bounces):
     scene.render.engine = "CYCLES"
     scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = WIDTH, HEIGHT, 100
     scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
     cycles = scene.cycles
-    cycles.samples, cycles.max_bounces = SAMPLES, 0
+    cycles.samples, cycles.max_bounces, cycles.diffuse_bounces = SAMPLES, bounces, bounces
     cycles.use_adaptive_sampling = cycles.use_denoising = False
-    cycles.sample_clamp_direct = cycles.blur_glossy = cycles.light_sampling_threshold = 0
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = cycles.light_sampling_threshold = 0
     cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01  # the center of a pixel, as `reference` takes it
 
 
-def render(folder, seeds, name, material, camera):
+def render(folder, seeds, name, materials, camera, lights, bounces):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    add_mesh(*read_obj(f"{folder}/{name}.obj"), surface(material))
-    for light in json.load(open(f"{folder}/lights.json"))["lights"]:
-        glow = shader("ShaderNodeEmission", Color=[*light["radiance"], 1], Strength=1)
-        glow.cycles.sample_as_light = False  # of many triangles Cycles chooses some too rarely, and loses up to a percent
-        add_sphere(light["position"], light["radius"], glow)
+    vertices, faces = read_obj(f"{folder}/{name}.obj")
+    for word in materials.split("+"):
+        part, text = word.split("=")
+        add_mesh(vertices, faces[part], surface(text))
+    for light in json.load(open(f"{folder}/{lights}.json"))["lights"]:
+        add_light(light)
     add_camera(camera)
-    set_up(scene)
+    set_up(scene, int(bounces))
     for seed in range(1, seeds + 1):
         scene.cycles.seed, scene.render.filepath = seed, f"{folder}/{name}-{seed}.exr"
         bpy.ops.render.render(write_still=True)
@@ -110,5 +168,5 @@ def render(folder, seeds, name, material, camera):
 
 folder, seeds, *cases = sys.argv[sys.argv.index("--") + 1:]
 while cases:
-    render(folder, int(seeds), *cases[:3])
-    cases = cases[3:]
+    render(folder, int(seeds), *cases[:5])
+    cases = cases[5:]
