@@ -237,7 +237,7 @@ static bool bounce_light(render_job *j, base_error *error) {
     const transfer_settings settings = { .bounces = j->options->bounces,
                                          .shadows = j->shadow != NULL,
                                          .around = &j->around };
-    j->bounces = render_device_transfer(&j->device, &settings, error);
+    j->bounces = render_device_transfer(&j->device, &j->materials, &settings, error);
     if (j->bounces)
         j->frame.bounces = transfer_bounces(j->bounces);
     return j->bounces != NULL;
@@ -277,8 +277,10 @@ static bool open_job(const char *name, render_job *j, base_error *error) {
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
     if (j->renderer && !j->moved)
         return base_fail(error, NULL, "out of memory");
-    return j->renderer && cast_shadows(j, error) && bounce_light(j, error) &&
-           override_prepare(&o->materials, &j->world, &j->frame, j->renderer, &j->materials, error);
+    return j->renderer && cast_shadows(j, error) &&
+           override_prepare(&o->materials, &j->world, &j->frame, j->renderer, &j->materials,
+                            error) &&
+           bounce_light(j, error);
 }
 
 static void close_job(render_job *j) {

@@ -47,7 +47,7 @@ volume_bounces *volume_bounces_create(const scene *world, const trace_bvh *bvh,
     if (!b)
         return NULL;
     spread(b);
-    b->transfer = transfer_create(world, bvh, &settings, &error);
+    b->transfer = transfer_create(world, NULL, bvh, &settings, &error);
     if (b->transfer && light(world, b->transfer))
         return b;
     volume_bounces_destroy(b);

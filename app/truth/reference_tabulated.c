@@ -92,6 +92,20 @@ static reference_vec flatten(reference_vec v, reference_vec normal) {
                                          : reference_around(normal, 0, 1, 0);
 }
 
+/* Sets the direction to the viewer. One that a smoothed normal puts behind the surface, as at
+ * silhouettes, is raised to just above the horizon, where <lampion/shade.h> reads a table, too: a
+ * BRDF is 0 below. */
+static void look(reference_tabulated *tabulated, reference_vec view) {
+    static const double least = 0.01;
+    const double x = reference_dot(view, tabulated->x), y = reference_dot(view, tabulated->y),
+                 z = reference_dot(view, tabulated->z), flat = hypot(x, y);
+    const bool raised = z < least && flat > 0;
+    const double scale = raised ? sqrt(1 - least * least) / flat : 1;
+    tabulated->wo[0] = scale * x;
+    tabulated->wo[1] = scale * y;
+    tabulated->wo[2] = raised ? least : z;
+}
+
 void reference_tabulated_orient(reference_tabulated *tabulated,
                                 const reference_material_source *source, reference_vec normal,
                                 reference_vec tangent, reference_vec view) {
@@ -101,9 +115,7 @@ void reference_tabulated_orient(reference_tabulated *tabulated,
     tabulated->z = normal;
     tabulated->x = source->coefficients ? flatten(view, normal) : x;
     tabulated->y = reference_cross(normal, tabulated->x);
-    tabulated->wo[0] = reference_dot(view, tabulated->x);
-    tabulated->wo[1] = reference_dot(view, tabulated->y);
-    tabulated->wo[2] = reference_dot(view, normal);
+    look(tabulated, view);
     if (source->coefficients)
         load_view(tabulated, tabulated->wo[2], phi);
 }

@@ -149,6 +149,10 @@ static bool prepare_materials(view_compositor *s, side *own, const view_settings
     }
     view_materials_free(&own->materials);
     own->materials = fresh;
+    if (own == s->sides) { /* by whose materials light bounces */
+        transfer_destroy(s->bounces);
+        s->bounces = NULL;
+    }
     return true;
 }
 
@@ -317,7 +321,8 @@ static bool prepare_bounces(view_compositor *s, const view_settings *settings,
     if (settings->bounces == 0)
         return true;
     if (!s->bounces)
-        s->bounces = render_device_transfer(tracing_device(s), &how, error);
+        s->bounces =
+            render_device_transfer(tracing_device(s), &s->sides[0].materials.made, &how, error);
     if (!s->bounces)
         return false;
     transfer_set(s->bounces, &how);

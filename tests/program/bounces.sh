@@ -24,6 +24,22 @@ cmp "$WORK/first.exr" "$WORK/second.exr"
 draw lights --random-lights 3
 [ "$(find "$WORK/cache" -name '*.bounces' | wc -l)" = 1 ] || fail "lights have rays of their own"
 
+# Replaced materials reflect in place of the scene's own: a room is the same, whatever color it had.
+room() {
+    printf 'newmtl wall\nKd %s %s %s\n' "$2" "$2" "$2" >"$WORK/$1.mtl"
+    printf '%s\n' "mtllib $1.mtl" 'v -2 -1 -2' 'v 2 -1 -2' 'v -2 1 -2' 'v 2 1 -2' 'v -2 -1 2' 'v 2 -1 2' 'v -2 1 2' 'v 2 1 2' \
+        'usemtl wall' 'f 1 2 4 3' 'f 5 7 8 6' 'f 1 5 6 2' 'f 3 4 8 7' 'f 1 3 7 5' 'f 2 6 8 4' >"$WORK/$1.obj"
+    "$PROGRAM" render "$WORK/$1.obj" --device cpu --size 24x16 --bounces 4 --bands 4 --samples 1 --eye 1,0,1.5 --target -1,0,-1 \
+        --lights "$WORK/lamp.json" --hide-lights --material wall=lambert:0.5 -o "$WORK/$1.exr" 2>"$WORK/$1.log" || fail "$(cat "$WORK/$1.log")"
+}
+echo '{ "lights": [ { "position": [ 0, 0.3, 0 ], "radius": 0.2, "radiance": 9 } ] }' >"$WORK/lamp.json"
+room dark 0.1
+room bright 0.9
+cmp "$WORK/dark.exr" "$WORK/bright.exr" || fail "replaced walls reflect as their own material"
+rm -f $(find "$WORK/cache" -name "*.bounces")
+draw lights --random-lights 3
+kept=$(find "$WORK/cache" -name '*.bounces')
+
 # an entry that is damaged, cut off, or another one's
 printf 'xxxx' | dd of="$kept" bs=1 seek=1000 conv=notrunc 2>/dev/null
 draw damaged

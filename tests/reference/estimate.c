@@ -341,6 +341,27 @@ static void brdfs_reflect_as_their_lobes(void **state) {
     lmp_brdf_destroy(phong);
 }
 
+/* A smoothed normal may face away from the viewer at a silhouette: a BRDF, which is 0 below the
+ * horizon, then reflects as on it, and a diffuse one as from anywhere. */
+static void views_below_the_horizon_are_raised(void **state) {
+    (void)state;
+    lmp_brdf *lambert = NULL;
+    assert_int_equal(lmp_brdf_create_lambert(NULL, (lmp_rgb) { 0.5f, 0.25f, 1 }, &lambert), LMP_OK);
+    const reference_material_source source = { .brdf = lambert };
+    reference_tabulated tabulated;
+    assert_true(reference_tabulated_create(&tabulated, &source, 1));
+    for (int degrees = 80; degrees <= 110; degrees += 5) {
+        const double angle = degrees * acos(-1) / 180;
+        const reference_vec view = { sin(angle), cos(angle), 0 };
+        double rgb[3];
+        reference_tabulated_orient(&tabulated, &source, up, (reference_vec) { 1, 0, 0 }, view);
+        reference_tabulated_at(&tabulated, (reference_vec) { 0, 0.6, 0.8 }, rgb);
+        CHECK_WITHIN(fabs(rgb[1] - 0.25 * 0.6 / acos(-1)), 1e-7);
+    }
+    reference_tabulated_free(&tabulated);
+    lmp_brdf_destroy(lambert);
+}
+
 static void check_table(float across) {
     const lmp_ggx ggx = { 0.3f, across, { 0.5f, 0.4f, 0.3f }, { 0.2f, 0.3f, 0.4f } };
     const lmp_brdf_table_desc desc = { .bands = 7 };
@@ -411,6 +432,7 @@ int main(void) {
         cmocka_unit_test(the_series_comes_back_as_the_lobe),
         cmocka_unit_test(cutting_a_lobe_costs_what_the_theory_says),
         cmocka_unit_test(brdfs_reflect_as_their_lobes),
+        cmocka_unit_test(views_below_the_horizon_are_raised),
         cmocka_unit_test(tables_reflect_as_the_library_shades_them),
         cmocka_unit_test(windows_have_the_documented_weights),
     };

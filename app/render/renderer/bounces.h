@@ -4,7 +4,7 @@
 #define LAMPION_RENDER_RENDERER_BOUNCES_H
 
 #include "app/base/cli.h"
-#include "app/render/renderer/renderer.h"
+#include "app/render/renderer/override.h"
 #include "app/render/shadow/transfer.h"
 
 #define BOUNCES_OPTION_ROW(variable)                                                               \
@@ -16,8 +16,9 @@
     }
 
 /* Creates the bounced light of the device's scene, by the rays of render_device_bvh, as
- * transfer_create does: the device and the environment must outlive it. */
-transfer *render_device_transfer(render_device *device, const transfer_settings *settings,
-                                 base_error *error);
+ * transfer_create does: the device and the environment must outlive it. Surfaces reflect as the
+ * materials that replace theirs do. */
+transfer *render_device_transfer(render_device *device, const override_set *replaced,
+                                 const transfer_settings *settings, base_error *error);
 
 #endif

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/renderer/override.h"
+
 #include "app/base/choice.h"
 #include "app/render/method.h"
+#include <math.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -133,6 +136,35 @@ bool override_prepare(const cli_list *list, const scene *world, const render_fra
             override_preintegrate(all, error)) &&
            override_bake_sheen(all, world, frame->bands, frame->window, error) &&
            (!override_is_needed(all->count, world) || override_apply(all, world, renderer, error));
+}
+
+/* Returns the fraction of even light that a table's BRDF reflects, each view weighted by its solid
+ * angle and cosine; in whole thousandths, which tables of other bands share. */
+static lmp_rgb albedo_of(const lmp_brdf_table *table) {
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    double sum[3] = { 0 }, weights = 0;
+    for (int view = 0; view < info.views; view++) {
+        lmp_rgb whole, series;
+        const double weight = sin(2 * (double)info.theta_step * view);
+        lmp_brdf_table_find_albedo(table, view, 0, &whole, &series);
+        sum[0] += weight * (double)whole.r;
+        sum[1] += weight * (double)whole.g;
+        sum[2] += weight * (double)whole.b;
+        weights += weight;
+    }
+    for (int c = 0; c < 3; c++)
+        sum[c] = fmin(fmax(round(1e3 * sum[c] / weights) / 1e3, 0), 1);
+    return (lmp_rgb) { (float)sum[0], (float)sum[1], (float)sum[2] };
+}
+
+lmp_rgb *override_albedos(const override_set *all, const scene *world) {
+    lmp_rgb of[RENDER_TABLES_MAX];
+    lmp_rgb *albedos = malloc((world->material_count + 1) * sizeof *albedos);
+    for (int i = 0; i < all->count; i++)
+        of[i] = albedo_of(all->tables[i]);
+    for (size_t m = 0; albedos && m < world->material_count; m++)
+        albedos[m] = all->uses && all->uses[m] >= 0 ? of[all->uses[m]] : (lmp_rgb) { -1, -1, -1 };
+    return albedos;
 }
 
 void override_free(override_set *all) {

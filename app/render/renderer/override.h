@@ -54,6 +54,11 @@ bool override_apply(const override_set *set, const scene *scene, any_renderer *r
 bool override_prepare(const cli_list *list, const scene *scene, const render_frame *frame,
                       any_renderer *renderer, override_set *set, base_error *error);
 
+/* Returns the albedo of each of the scene's materials that an entry replaces, over all views, and
+ * colors below 0 for the others; NULL if memory ran out. Release it with free. Call it after
+ * override_bake. */
+lmp_rgb *override_albedos(const override_set *set, const scene *scene);
+
 /* Frees the set; call it after the renderer is destroyed. */
 void override_free(override_set *set);
 

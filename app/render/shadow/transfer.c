@@ -24,8 +24,9 @@ struct transfer {
 
 /* --- creation --------------------------------------------------------------------------------- */
 
-static bool create_parts(transfer *t, const scene *world, const trace_bvh *bvh) {
-    t->baked = transfer_bake(world, bvh);
+static bool create_parts(transfer *t, const scene *world, const lmp_rgb *albedos,
+                         const trace_bvh *bvh) {
+    t->baked = transfer_bake(world, albedos, bvh);
     if (!t->baked)
         return false;
     t->view = (transfer_view) { world, bvh, &t->baked->cells };
@@ -35,11 +36,11 @@ static bool create_parts(transfer *t, const scene *world, const trace_bvh *bvh) 
     return t->direct && t->lights && t->new_lights;
 }
 
-transfer *transfer_create(const scene *world, const trace_bvh *bvh,
+transfer *transfer_create(const scene *world, const lmp_rgb *albedos, const trace_bvh *bvh,
                           const transfer_settings *settings, base_error *error) {
     const double start = timing_now();
     transfer *t = calloc(1, sizeof *t);
-    if (t && bvh && create_parts(t, world, bvh)) {
+    if (t && bvh && create_parts(t, world, albedos, bvh)) {
         const transfer_baked *b = t->baked;
         t->settings = *settings;
         t->statistics.surfels = b->surfels.count;

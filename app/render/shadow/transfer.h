@@ -20,8 +20,9 @@ typedef struct transfer_settings {
 #define TRANSFER_BOUNCES_MAX 1000
 
 /* Makes a scene's surfels and casts their rays; the scene and its tree must outlive the result.
- * Returns NULL on failure. */
-transfer *transfer_create(const scene *world, const trace_bvh *bvh,
+ * `albedos` may be NULL; it has a color per material of the scene, which replaces what the material
+ * reflects, or is below 0. Returns NULL on failure. */
+transfer *transfer_create(const scene *world, const lmp_rgb *albedos, const trace_bvh *bvh,
                           const transfer_settings *settings, base_error *error);
 void transfer_destroy(transfer *transfer);
 

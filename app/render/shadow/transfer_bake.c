@@ -8,6 +8,7 @@
 
 typedef struct bake_source {
     const scene *world;
+    const lmp_rgb *albedos;
     const trace_bvh *bvh;
 } bake_source;
 
@@ -46,7 +47,7 @@ static lmp_result create_transfer(transfer_baked *b, const uint32_t *hits, const
 static lmp_result make_parts(const lmp_host *host, const bake_source *from, baked_object *o) {
     transfer_baked *b = &o->baked;
     const transfer_view view = { from->world, from->bvh, &b->cells };
-    if (!transfer_surfels_make(from->world, &b->surfels))
+    if (!transfer_surfels_make(from->world, from->albedos, &b->surfels))
         return LMP_ERROR_MEMORY;
     transfer_drop_buried(from->world, from->bvh, &b->surfels);
     if (!transfer_cells_create(&b->surfels, &b->cells) ||
@@ -133,7 +134,7 @@ static void *read_object(const void *bytes, size_t size, const void *user) {
 /* --- both ------------------------------------------------------------------------------------- */
 
 /* Returns the hash of what surfels and rays depend on. */
-static file_hash key_of(const scene *s) {
+static file_hash key_of(const scene *s, const lmp_rgb *albedos) {
     static const float sizes[] = { TRANSFER_RAYS, TRANSFER_LINKS, TRANSFER_SURFELS_MAX,
                                    TRANSFER_SPACINGS, TRANSFER_REACH };
     file_hash key = { 0, 0 };
@@ -143,6 +144,8 @@ static file_hash key_of(const scene *s) {
     file_hash_add(&key, s->meshes, s->mesh_count * sizeof *s->meshes);
     file_hash_add(&key, s->instances, s->instance_count * sizeof *s->instances);
     file_hash_add(&key, s->materials, s->material_count * sizeof *s->materials);
+    if (albedos)
+        file_hash_add(&key, albedos, s->material_count * sizeof *albedos);
     file_hash_add(&key, s->textures, s->texture_count * sizeof *s->textures);
     file_hash_add(&key, s->encoded, s->encoded_bytes);
     if (s->image_count == 0)
@@ -150,11 +153,11 @@ static file_hash key_of(const scene *s) {
     return key;
 }
 
-transfer_baked *transfer_bake(const scene *world, const trace_bvh *bvh) {
-    const bake_source source = { world, bvh };
+transfer_baked *transfer_bake(const scene *world, const lmp_rgb *albedos, const trace_bvh *bvh) {
+    const bake_source source = { world, albedos, bvh };
     const bake_recipe recipe = { .kind = "bounces",
                                  .what = "casting rays between surfaces",
-                                 .key = key_of(world),
+                                 .key = key_of(world, albedos),
                                  .read = read_object,
                                  .make = make,
                                  .size = size_of,

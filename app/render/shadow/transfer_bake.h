@@ -12,8 +12,9 @@ typedef struct transfer_baked {
 } transfer_baked;
 
 /* Makes a scene's surfels and casts their rays, with a progress bar, or reads them from the cache,
- * where they are kept by the scene's geometry and materials. Returns NULL if memory ran out. */
-transfer_baked *transfer_bake(const scene *world, const trace_bvh *bvh);
+ * where they are kept by the scene's geometry and materials; `albedos` as for
+ * transfer_surfels_make. Returns NULL if memory ran out. */
+transfer_baked *transfer_bake(const scene *world, const lmp_rgb *albedos, const trace_bvh *bvh);
 void transfer_baked_destroy(transfer_baked *baked);
 
 #endif

@@ -77,9 +77,9 @@ static double sided_area(const scene *world) {
 
 /* Adds a surfel, on both sides if the material has two. Points of a triangle follow Roberts'
  * sequence R2, folded into it. */
-static void add_point(const scene *world, size_t instance, uint32_t triangle, lmp_vec3 normal,
-                      transfer_surfels *s) {
-    const scene_material *material = &world->materials[scene_instance_material(world, instance)];
+static void add_point(const scene *world, const lmp_rgb *albedos, size_t instance,
+                      uint32_t triangle, lmp_vec3 normal, transfer_surfels *s) {
+    const uint32_t material = scene_instance_material(world, instance);
     double xy[2];
     transfer_sequence((double)s->count, 0, xy);
     float u = (float)(xy[0] - floor(xy[0])), v = (float)(xy[1] - floor(xy[1]));
@@ -93,9 +93,10 @@ static void add_point(const scene *world, size_t instance, uint32_t triangle, lm
     lmp_vec3 position = { 0, 0, 0 };
     for (int i = 0; i < 3; i++)
         position = vec_add(position, vec_scale(vec_load(corners[i].position), weights[i]));
-    const lmp_transfer_surfel front = { position, normal,
-                                        albedo_at(world, material, corners, weights),
-                                        TRANSFER_REACH * s->spacing };
+    const lmp_rgb albedo = albedos && albedos[material].r >= 0
+                               ? albedos[material]
+                               : albedo_at(world, &world->materials[material], corners, weights);
+    const lmp_transfer_surfel front = { position, normal, albedo, TRANSFER_REACH * s->spacing };
     s->at[s->count++] = front;
     if (is_double_sided(world, instance)) {
         s->at[s->count] = front;
@@ -105,7 +106,7 @@ static void add_point(const scene *world, size_t instance, uint32_t triangle, lm
 
 /* Walks over the triangles, and adds a point wherever the area so far passes a multiple of what a
  * surfel stands for. */
-static void add_points(const scene *world, transfer_surfels *s) {
+static void add_points(const scene *world, const lmp_rgb *albedos, transfer_surfels *s) {
     const double each = (double)s->spacing * (double)s->spacing;
     double left = each / 2;
     for (size_t i = 0; i < world->instance_count; i++)
@@ -115,17 +116,17 @@ static void add_points(const scene *world, transfer_surfels *s) {
             scene_triangle_positions(world, i, t, corners);
             left -= (double)transfer_face(corners, &normal);
             for (; left < 0 && s->count + 1 < 2 * TRANSFER_SURFELS_MAX; left += each)
-                add_point(world, i, t, normal, s);
+                add_point(world, albedos, i, t, normal, s);
         }
 }
 
-bool transfer_surfels_make(const scene *world, transfer_surfels *s) {
+bool transfer_surfels_make(const scene *world, const lmp_rgb *albedos, transfer_surfels *s) {
     const double area = sided_area(world);
     const lmp_vec3 extent = vec_sub(vec_load(world->maximum), vec_load(world->minimum));
     *s = (transfer_surfels) { .at = malloc(2 * TRANSFER_SURFELS_MAX * sizeof *s->at) };
     s->spacing =
         fmaxf(vec_length(extent) / TRANSFER_SPACINGS, (float)sqrt(area / TRANSFER_SURFELS_MAX));
     if (s->at && area > 0)
-        add_points(world, s);
+        add_points(world, albedos, s);
     return s->at != NULL;
 }

@@ -18,10 +18,12 @@ typedef struct transfer_surfels {
 
 /* Makes the surfels of a scene: TRANSFER_SPACINGS of them span its extent, fewer where this would
  * be more than TRANSFER_SURFELS_MAX; double-sided surfaces have them on both sides. Without a
- * surface there is none. Returns false if memory ran out; free surfels->at in any case. */
+ * surface there is none. `albedos` may be NULL; of a material whose color there is not below 0 it
+ * is the albedo, in place of its own. Returns false if memory ran out; free surfels->at in any
+ * case. */
 #define TRANSFER_SURFELS_MAX 40000
 #define TRANSFER_SPACINGS    60
-bool transfer_surfels_make(const scene *world, transfer_surfels *surfels);
+bool transfer_surfels_make(const scene *world, const lmp_rgb *albedos, transfer_surfels *surfels);
 
 /* Writes number k of Roberts' sequence R2, whose fractions fill the square evenly, shifted by
  * `shift` so that surfels do not share a pattern. */
