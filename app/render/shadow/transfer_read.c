@@ -28,7 +28,8 @@ typedef struct reading {
     size_t count;
     uint32_t pixels[RENDER_TILE_PIXELS]; /* in the planes */
     uint16_t number[RENDER_TILE_PIXELS]; /* of each pixel of the rectangle, or UNLISTED */
-    bool known[RENDER_TILE_PIXELS];
+    bool known[RENDER_TILE_PIXELS];      /* read from surfels */
+    bool found[RENDER_TILE_PIXELS];      /* interpolated */
     lmp_rgb irradiance[RENDER_TILE_PIXELS];
 } reading;
 
@@ -38,6 +39,7 @@ static void list_pixels(const render_surfaces *s, const render_rectangle *pixels
     r->height = pixels->height;
     r->count = 0;
     memset(r->known, 0, sizeof r->known);
+    memset(r->found, 0, sizeof r->found);
     for (int i = 0; i < pixels->width * pixels->height; i++) {
         const int x = pixels->x + i % pixels->width, y = pixels->y + i / pixels->width;
         const size_t pixel = render_surfaces_at(s, x, y);
@@ -156,6 +158,44 @@ static lmp_rgb irradiance_of(reading *r, int x, int y) {
     return read_pixel(r, pixel);
 }
 
+static lmp_rgb mix(lmp_rgb a, lmp_rgb b, float part) {
+    return (lmp_rgb) { a.r + part * (b.r - a.r), a.g + part * (b.g - a.g),
+                       a.b + part * (b.b - a.b) };
+}
+
+/* Interpolates the pixels of a square's row that lie on the surface of one of its corners. */
+static void fill_row(reading *r, int y, int left, lmp_rgb first, lmp_rgb last, size_t corner) {
+    const lmp_vec3 point = vector_at(r->tile->position, corner),
+                   normal = vector_at(r->tile->normal, corner);
+    for (int x = left; x < left + APART && x < r->width; x++) {
+        int begin, end;
+        const uint16_t i = r->number[y * r->width + x];
+        if (i == UNLISTED || r->known[i] || !is_beside(r, i, point, normal))
+            continue;
+        r->irradiance[i] = mix(first, last, find_side(x, APART, r->width, &begin, &end));
+        r->found[i] = true;
+    }
+}
+
+/* Fills a square whose corners lie on one surface and differ little. Most pixels are so compared
+ * with one corner alone. */
+static void fill_square(reading *r, int left, int top) {
+    lmp_rgb e[4];
+    if (r->number[top * r->width + left] == UNLISTED)
+        return;
+    const square q = find_square(r, left, top, APART);
+    for (int i = 0; i < q.count; i++) {
+        e[i] = read_pixel(r, q.corner[i]);
+        if (differ(e[0].r, e[i].r) || differ(e[0].g, e[i].g) || differ(e[0].b, e[i].b))
+            return;
+    }
+    for (int y = top; q.count == 4 && y < top + APART && y < r->height; y++) {
+        int begin, end;
+        const float down = find_side(y, APART, r->height, &begin, &end);
+        fill_row(r, y, left, mix(e[0], e[2], down), mix(e[1], e[3], down), q.corner[0]);
+    }
+}
+
 /* Takes a listed pixel's irradiance from a pixel of the first sample that shows the same surface,
  * itself or one next to it. */
 static bool take_first(reading *r, const render_surfaces *s, const render_rectangle *pixels, int x,
@@ -179,10 +219,13 @@ static bool take_first(reading *r, const render_surfaces *s, const render_rectan
 
 /* Finds the irradiance of all listed pixels. */
 static void find_irradiance(reading *r, const render_surfaces *s, const render_rectangle *pixels) {
+    for (int y = 0; y < r->height && !s->first; y += APART)
+        for (int x = 0; x < r->width; x += APART)
+            fill_square(r, x, y);
     for (int y = 0; y < r->height; y++)
         for (int x = 0; x < r->width; x++) {
             const uint16_t i = r->number[y * r->width + x];
-            if (i != UNLISTED && !take_first(r, s, pixels, x, y))
+            if (i != UNLISTED && !r->found[i] && !take_first(r, s, pixels, x, y))
                 r->irradiance[i] = irradiance_of(r, x, y);
         }
 }
