@@ -4,8 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-/* The near plane's distance as a fraction of the scene's extent. */
-static const float near_of_extent = 1e-4f;
+/* The near plane's distance, as a fraction of the scene's extent and of how far the camera looks,
+ * the lesser: of wide ground or a distant sky, a camera beside a small model has an extent that
+ * says nothing. Depths are near / distance, which floats hold equally well whatever it is. */
+static const float near_of_extent = 1e-4f, near_of_view = 1e-3f;
 
 static void subtract(const float a[3], const float b[3], float difference[3]) {
     for (int i = 0; i < 3; i++)
@@ -37,11 +39,15 @@ static void sample_offset(int index, int count, float offset[2]) {
     }
 }
 
-static float near_of(const scene *world) {
-    float extent = 0;
-    for (int i = 0; i < 3; i++)
+static float near_of(const scene *world, const scene_camera *from) {
+    float extent = 0, view2 = 0;
+    for (int i = 0; i < 3; i++) {
         extent = fmaxf(extent, world->maximum[i] - world->minimum[i]);
-    return near_of_extent * (extent > 0 ? extent : 1);
+        view2 += (from->target[i] - from->eye[i]) * (from->target[i] - from->eye[i]);
+    }
+    const float of_view = near_of_view * sqrtf(view2);
+    const float of_extent = near_of_extent * (extent > 0 ? extent : 1);
+    return of_view > 0 && of_view < of_extent ? of_view : of_extent;
 }
 
 bool render_camera_set(const scene *world, const render_frame *frame, int sample, render_camera *c,
@@ -55,7 +61,7 @@ bool render_camera_set(const scene *world, const render_frame *frame, int sample
     c->width = frame->width;
     c->height = frame->height;
     c->parallel = from->height > 0;
-    c->near = from->near > 0 ? from->near : near_of(world);
+    c->near = from->near > 0 ? from->near : near_of(world, from);
     c->far = from->far > 0 ? from->far : INFINITY;
     c->sample = sample;
     c->samples = frame->samples > 1 ? frame->samples : 1;

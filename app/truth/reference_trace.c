@@ -63,6 +63,16 @@ static double bulge(const corner_weights *c, reference_vec position) {
     return height;
 }
 
+static float lift_of(const reference_tracer *tracer, const corner_weights *c, reference_vec at) {
+    lmp_vec3 corners[3];
+    for (int i = 0; i < 3; i++) {
+        const float *corner = c->vertices[i].position;
+        corners[i] = (lmp_vec3) { corner[0], corner[1], corner[2] };
+    }
+    return trace_lift_at(tracer->lift, (lmp_vec3) { (float)at.x, (float)at.y, (float)at.z },
+                         corners);
+}
+
 bool reference_tracer_create(const scene *world, reference_tracer **tracer, base_error *error) {
     reference_tracer *t = *tracer = calloc(1, sizeof *t);
     if (!t || !(t->bvh = trace_create(world))) {
@@ -105,7 +115,8 @@ static reference_hit trace_surface(const reference_tracer *tracer, trace_kind ki
     hit.position = blend(&c, offsetof(scene_vertex, position));
     hit.distance = reference_length(reference_subtract(hit.position, origin));
     const reference_vec normal = blend(&c, offsetof(scene_vertex, normal));
-    const reference_vec lift = reference_scale(side * tracer->lift, face);
+    const reference_vec lift =
+        reference_scale(side * (double)lift_of(tracer, &c, hit.position), face);
     const double height = side * bulge(&c, hit.position);
     hit.normal = reference_scale(side, reference_normalize(normal));
     hit.behind = reference_subtract(hit.position, lift);

@@ -31,7 +31,8 @@ static void draw_or_meter(const room *r, int bounces, bool shadows, bool meter, 
         frame.shadow = shadow_pass(caster);
     }
     const transfer_settings settings = { .bounces = bounces, .shadows = shadows };
-    transfer *bounced = render_device_transfer(&device, &settings, &error);
+    const override_set none = { .count = 0 };
+    transfer *bounced = render_device_transfer(&device, &none, &settings, &error);
     assert_non_null(bounced);
     frame.bounces = transfer_bounces(bounced);
     if (meter)

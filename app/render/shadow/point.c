@@ -50,11 +50,13 @@ static lmp_vec3 mix(const shadow_vectors corners[3], const shadow_lanes weights[
  * the quadratic surface with the corners' normals, which is half as far off the triangle as the
  * corners' tangent planes, plus a small lift against rounding. Concave points stay on the triangle;
  * for light from behind they are the ones that bulge. */
-static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float lift, shadow_points *p) {
+static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float most, shadow_points *p) {
     for (int i = 0; i < SHADOW_LANES; i++) {
-        const lmp_vec3 a = shadow_lane(&t->corners[0], i);
-        const lmp_vec3 cross = vec_cross(vec_sub(shadow_lane(&t->corners[1], i), a),
-                                         vec_sub(shadow_lane(&t->corners[2], i), a));
+        const lmp_vec3 corners[3] = { shadow_lane(&t->corners[0], i),
+                                      shadow_lane(&t->corners[1], i),
+                                      shadow_lane(&t->corners[2], i) };
+        const lmp_vec3 cross =
+            vec_cross(vec_sub(corners[1], corners[0]), vec_sub(corners[2], corners[0]));
         const float area = vec_length(cross), scale = 1 / (area > 0 ? area : 1);
         const lmp_vec3 face = { cross.x * scale, area > 0 ? cross.y * scale : 1, cross.z * scale };
         const float side = vec_dot(face, shadow_lane(&p->view, i)) < 0 ? -1.0f : 1.0f;
@@ -64,7 +66,7 @@ static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float lift, shad
                                   length > 0 ? sum.y * to_unit : side * face.y,
                                   length > 0 ? sum.z * to_unit : side * face.z };
         const float height = side * bulge(t, i, at), off = height > 0 ? height : 0;
-        const float hollow = height < 0 ? height : 0;
+        const float hollow = height < 0 ? height : 0, lift = trace_lift_at(most, at, corners);
         shadow_set_lane(&p->smooth, i, smooth);
         shadow_set_lane(&p->origin, i,
                         vec_add(vec_add(at, vec_scale(smooth, off)), vec_scale(face, side * lift)));
@@ -79,7 +81,7 @@ static void leave_pixel(const shadow_view *view, int lane, shadow_points *p) {
     const lmp_vec3 normal = shadow_lane(&p->normal, lane);
     shadow_set_lane(&p->smooth, lane, normal);
     const lmp_vec3 at = shadow_lane(&p->position, lane),
-                   off = vec_scale(normal, near_lifts * view->lift);
+                   off = vec_scale(normal, near_lifts * trace_lift_at(view->lift, at, NULL));
     shadow_set_lane(&p->origin, lane, vec_add(at, off));
     shadow_set_lane(&p->behind, lane, vec_sub(at, off));
 }
@@ -87,17 +89,17 @@ static void leave_pixel(const shadow_view *view, int lane, shadow_points *p) {
 /* Finds the triangle of each point by a short ray along its view. */
 static void find_triangles(const shadow_view *view, const shadow_points *p,
                            trace_hit hits[SHADOW_LANES]) {
-    const float before = near_lifts * view->lift;
     trace_rays rays;
     for (int i = 0; i < SHADOW_LANES; i++) {
+        const float before =
+            near_lifts * trace_lift_at(view->lift, shadow_lane(&p->position, i), NULL);
         rays.start[i] = 0;
         rays.length[i] = p->lit[i] ? 2 * before : -1;
-    }
-    for (int c = 0; c < 3; c++)
-        for (int i = 0; i < SHADOW_LANES; i++) {
+        for (int c = 0; c < 3; c++) {
             rays.origin[c][i] = p->position.of[c][i] + before * p->view.of[c][i];
             rays.direction[c][i] = -p->view.of[c][i];
         }
+    }
     trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
 }
 

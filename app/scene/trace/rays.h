@@ -36,8 +36,13 @@ static inline trace_hit trace_miss(void) {
     return (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
 }
 
-/* Returns how far off a surface a ray must start so that rounding does not make it hit that
+/* Returns how far off any surface a ray must start so that rounding does not make it hit that
  * surface. */
 double trace_lift(const scene *scene);
+
+/* Returns the same for a point of a triangle, in the scene of that lift: in proportion to the
+ * coordinates that are rounded, its own, its corners' (unless these are NULL) and hardly the
+ * scene's, so that a small model on wide ground or under a distant sky casts its shadow. */
+float trace_lift_at(double lift, lmp_vec3 point, const lmp_vec3 corners[3]);
 
 #endif
