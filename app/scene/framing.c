@@ -10,6 +10,7 @@
 #define INSIDE_BACK   0.8f    /* fraction of the distance to the wall behind */
 #define INSIDE_HEIGHT 0.4f    /* fraction of a room's height */
 #define FRAMING_PART  0.9f    /* fraction of the image that a model fills at most */
+#define SUBJECT_PART  0.02f /* fraction of a scene that a model in wide surroundings has at most */
 
 /* Looks at the middle of a room from where most of it is visible. Where no wall limits how far the
  * camera may go, it looks ahead from the middle. */
@@ -37,10 +38,55 @@ static scene_camera camera_inside(const scene *s, lmp_vec3 middle) {
     return camera;
 }
 
+/* --- outside ---------------------------------------------------------------------------------- */
+
+typedef struct box {
+    lmp_vec3 low, high;
+} box;
+
+static box box_of(const scene *s, size_t instance) {
+    float low[3], high[3];
+    scene_instance_box(s, instance, low, high);
+    return (box) { vec_load(low), vec_load(high) };
+}
+
+static float size_of(const box *b) {
+    return vec_length(vec_sub(b->high, b->low));
+}
+
+static void add_box(const box *b, box *sum) {
+    sum->low =
+        vec(fminf(sum->low.x, b->low.x), fminf(sum->low.y, b->low.y), fminf(sum->low.z, b->low.z));
+    sum->high = vec(fmaxf(sum->high.x, b->high.x), fmaxf(sum->high.y, b->high.y),
+                    fmaxf(sum->high.z, b->high.z));
+}
+
+/* What is framed: instances up to a size, and the box of all. It is the whole scene, or what is
+ * small and together in it: a model on ground that reaches to the horizon, or under a dome. */
+typedef struct subject {
+    float largest;
+    box bounds;
+} subject;
+
+static subject find_subject(const scene *s) {
+    const box whole = { vec_load(s->minimum), vec_load(s->maximum) };
+    const float most = SUBJECT_PART * size_of(&whole);
+    subject found = { most,
+                      { vec(INFINITY, INFINITY, INFINITY), vec(-INFINITY, -INFINITY, -INFINITY) } };
+    for (size_t i = 0; i < s->instance_count; i++) {
+        const box b = box_of(s, i);
+        if (size_of(&b) <= most)
+            add_box(&b, &found.bounds);
+    }
+    const float size = size_of(&found.bounds);
+    return size > 0 && size <= most ? found : (subject) { INFINITY, whole };
+}
+
 /* The view pyramid of a model, with these slopes, looking along -from. Its planes touch the model
  * where x + slope z and -x + slope z are largest, which gives the position of its tip between two
  * of them. */
 typedef struct pyramid {
+    subject subject;
     lmp_vec3 center, right, up, from;
     float slope[2];    /* across, along up */
     float touching[4]; /* distance of the plane that touches: right, left, top, bottom */
@@ -60,10 +106,11 @@ static void reach_of(const pyramid *f, lmp_vec3 point, float sides[4], float *ra
 
 /* Whether the instance's box may reach farther than what has been touched so far. */
 static bool may_touch(const scene *s, size_t instance, const pyramid *f) {
-    float box[2][3], sides[4], radius;
-    scene_instance_box(s, instance, box[0], box[1]);
-    for (int i = 0; i < 8; i++) {
-        const lmp_vec3 corner = vec(box[i & 1][0], box[i >> 1 & 1][1], box[i >> 2][2]);
+    const box b = box_of(s, instance);
+    float sides[4], radius;
+    for (int i = 0; i < 8 && size_of(&b) <= f->subject.largest; i++) {
+        const lmp_vec3 corner =
+            vec(i & 1 ? b.high.x : b.low.x, i & 2 ? b.high.y : b.low.y, i & 4 ? b.high.z : b.low.z);
         reach_of(f, corner, sides, &radius);
         for (int k = 0; k < 4; k++)
             if (!(sides[k] <= f->touching[k]))
@@ -118,10 +165,12 @@ static scene_camera camera_before(const scene *s, int quarter, float aspect) {
     static const float from[4][2] = {
         { 0.45f, 1.0f }, { 1.0f, -0.45f }, { -0.45f, -1.0f }, { -1.0f, 0.45f }
     };
+    const subject seen = find_subject(s);
     const lmp_vec3 center =
-        vec_add(vec_scale(vec_load(s->minimum), 0.5f), vec_scale(vec_load(s->maximum), 0.5f));
+        vec_add(vec_scale(seen.bounds.low, 0.5f), vec_scale(seen.bounds.high, 0.5f));
     const float slope = FRAMING_PART * (float)tan(0.5 * (double)DEFAULT_FOV);
-    pyramid f = { .center = center,
+    pyramid f = { .subject = seen,
+                  .center = center,
                   .from = vec_normalize(vec(from[quarter][0], 0.35f, from[quarter][1]),
                                         vec(0.0f, 0.0f, 1.0f)),
                   .slope = { slope * aspect, slope },
@@ -187,6 +236,17 @@ static bool draws_backs(const scene *s) {
     return s->material_count > 0;
 }
 
+/* Returns the fraction of the upper sky that reaches what is framed from outside. Cells as large as
+ * a model in wide surroundings tell only whether these close above it, as a dome does. */
+static float find_sky(const scene *s, const scene_grid *grid, int quarter) {
+    const subject seen = find_subject(s);
+    lmp_vec3 above = vec_scale(vec_add(seen.bounds.low, seen.bounds.high), 0.5f);
+    above.y += 0.05f * vec_length(vec_sub(vec_load(s->maximum), vec_load(s->minimum)));
+    if (isfinite(seen.largest))
+        return scene_interior_closes(grid, above) ? 0.0f : 1.0f;
+    return scene_interior_sky(grid, quarter, draws_backs(s));
+}
+
 static scene_frame find_frame(const scene *s, scene_framing wanted) {
     scene_frame frame = { .wanted = wanted, .framing = wanted, .sky = 1.0f };
     scene_grid *grid = s->index_count > 0 ? scene_grid_create(s) : NULL;
@@ -198,7 +258,7 @@ static scene_frame find_frame(const scene *s, scene_framing wanted) {
     frame.middle = found.middle;
     frame.quarter = best_quarter(&found);
     if (s->camera_count == 0 || wanted == SCENE_FRAMING_OUTSIDE)
-        frame.sky = scene_interior_sky(grid, frame.quarter, draws_backs(s));
+        frame.sky = find_sky(s, grid, frame.quarter);
     frame.own = s->camera_count > 0 && scene_interior_closes(grid, vec_load(s->cameras->eye));
     if (wanted == SCENE_FRAMING_AUTO && (s->camera_count > 0 ? frame.own : found.inside))
         frame.framing = SCENE_FRAMING_INSIDE;

@@ -451,6 +451,73 @@ static void random_lights_are_where_the_camera_of_a_large_scene_looks(void **sta
     free(s);
 }
 
+/* A scene of two meshes: the first corners of a shape, and the rest. */
+typedef struct pair {
+    scene_mesh meshes[2];
+    scene_instance instances[2];
+} pair;
+
+static scene scene_of_two(shape *s, uint32_t first, pair *p) {
+    scene world = shape_scene(s);
+    p->meshes[0] = p->meshes[1] = s->mesh;
+    p->meshes[0].index_count = p->meshes[1].first_index = first;
+    p->meshes[1].index_count -= first;
+    for (uint32_t m = 0; m < 2; m++) {
+        p->instances[m] = scene_instance_identity(m);
+        for (int k = 0; k < 3; k++) {
+            p->meshes[m].minimum[k] = INFINITY;
+            p->meshes[m].maximum[k] = -INFINITY;
+        }
+        for (uint32_t i = 0; i < p->meshes[m].index_count; i++) {
+            const float *at = s->vertices[s->indices[p->meshes[m].first_index + i]].position;
+            for (int k = 0; k < 3; k++) {
+                p->meshes[m].minimum[k] = fminf(p->meshes[m].minimum[k], at[k]);
+                p->meshes[m].maximum[k] = fmaxf(p->meshes[m].maximum[k], at[k]);
+            }
+        }
+    }
+    world.meshes = p->meshes;
+    world.instances = p->instances;
+    world.mesh_count = world.instance_count = 2;
+    return world;
+}
+
+/* On ground that reaches to the horizon, or under a dome, the model is framed, and the dome keeps
+ * no light of the studio out; on ground a few times its size all is. */
+static void a_model_is_framed_in_wide_surroundings(void **state) {
+    (void)state;
+    static const struct {
+        float size;
+        bool dome, model;
+    } cases[] = { { 1000, false, true }, { 8, false, false }, { 1000, true, true } };
+    shape *s = malloc(sizeof *s);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const float r = cases[i].size;
+        pair p;
+        shape_clear(s);
+        crate(s, 0);
+        const uint32_t first = s->count;
+        if (cases[i].dome)
+            REVOLVE(s, here, 0, 64, { 0, r }, { 0.7f * r, 0.7f * r }, { r, 0 },
+                    { 0.7f * r, -0.7f * r }, { 0, -r });
+        else
+            shape_box(s, vec(-r, -0.1f, -r), vec(r, -0.05f, r), false, 0);
+        scene world = scene_of_two(s, first, &p);
+        scene_frame frame = { .wanted = SCENE_FRAMING_AUTO };
+        world.frame = &frame;
+        const lmp_vec3 low = vec_load(p.meshes[0].minimum), high = vec_load(p.meshes[0].maximum);
+        const float size = vec_length(vec_sub(high, low));
+        const scene_camera camera = scene_default_camera(&world, 1.5f);
+        const lmp_vec3 eye = vec_load(camera.eye), target = vec_load(camera.target);
+        assert_string_equal(camera.name, "framed");
+        assert_int_equal(vec_length(vec_sub(eye, target)) < 3 * size, cases[i].model);
+        if (cases[i].model)
+            assert_true(vec_length(vec_sub(target, vec_scale(vec_add(low, high), 0.5f))) < size);
+        assert_int_equal(environment_suits_shadows(true, &world), !cases[i].dome);
+    }
+    free(s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sixty_shapes_are_seen_from_where_a_person_would_stand),
@@ -458,6 +525,7 @@ int main(void) {
         cmocka_unit_test(a_box_is_looked_into_from_where_it_is_open),
         cmocka_unit_test(the_sky_reaches_what_is_seen_from_outside),
         cmocka_unit_test(the_framing_that_is_chosen_is_taken),
+        cmocka_unit_test(a_model_is_framed_in_wide_surroundings),
         cmocka_unit_test(random_lights_are_where_the_camera_of_a_large_scene_looks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
