@@ -326,6 +326,25 @@ static void the_atrium_is_the_same_for_a_seed_and_another_for_another(void **sta
     scene_free(&c);
 }
 
+static void an_atrium_of_less_detail_has_the_same_lights_and_walls(void **state) {
+    (void)state;
+    scene all = load_cached("builtin:atrium"), same = load_cached("builtin:atrium:detail=100");
+    scene few = load_cached("builtin:atrium:detail=25");
+    assert_int_equal(all.block_size, same.block_size);
+    assert_memory_equal(all.block, same.block, all.block_size);
+    assert_unit_and_inside(&few);
+    assert_true(3 * few.index_count < all.index_count);
+    assert_int_equal(few.light_count, all.light_count);
+    assert_memory_equal(few.lights, all.lights, all.light_count * sizeof *all.lights);
+    for (int k = 0; k < 3; k++)
+        assert_true(few.minimum[k] == all.minimum[k] && few.maximum[k] == all.maximum[k]);
+    /* what curves lose as polygons, and fluted columns as smooth ones */
+    assert_true(fabs(scene_area(&few) / scene_area(&all) - 1) <= 0.02);
+    scene_free(&few);
+    scene_free(&same);
+    scene_free(&all);
+}
+
 /* --- lights ----------------------------------------------------------------------------------- */
 
 static void random_lights_are_the_same_everywhere(void **state) {
@@ -427,6 +446,7 @@ int main(void) {
         cmocka_unit_test(built_in_scenes_are_valid),
         cmocka_unit_test(many_lanterns_hang_on_strings),
         cmocka_unit_test(the_atrium_is_the_same_for_a_seed_and_another_for_another),
+        cmocka_unit_test(an_atrium_of_less_detail_has_the_same_lights_and_walls),
         cmocka_unit_test(random_lights_are_the_same_everywhere),
         cmocka_unit_test(a_point_has_no_room_for_random_lights),
         cmocka_unit_test(asked_lights_replace_the_scene_s_own_unless_kept),

@@ -36,7 +36,7 @@ static void add_materials(scene_builder *builder) {
 }
 
 void builtin_atrium(const builtin_parameters *parameters, scene_builder *builder) {
-    court_plan court = { .shaper = { .builder = builder },
+    court_plan court = { .shaper = { .builder = builder, .detail = parameters->detail },
                          .bays = BAYS_LONG * parameters->tiles,
                          .random = parameters->seed };
     court.half_length = 0.5f * BAY * (float)court.bays;

@@ -99,10 +99,10 @@ static void atrium_put_balustrade(scene_shaper *shaper, float floor) {
 
 /* Adds one face of the wall around an arch, at depth z, seen from +z (or from -z if `back`). */
 static void put_spandrels(scene_shaper *shaper, const storey_plan *s, float z, bool back) {
-    enum { STEPS = 24 };
+    const int steps = shaper_steps(shaper, 24);
     const float half = 0.5f * BAY, r = s->opening;
-    for (int i = 0; i < STEPS; i++) {
-        const float from = PI * (float)i / STEPS, to = PI * (float)(i + 1) / STEPS;
+    for (int i = 0; i < steps; i++) {
+        const float from = PI * (float)i / (float)steps, to = PI * (float)(i + 1) / (float)steps;
         const lmp_vec3 a = vec(r * cosf(from), s->springing + r * sinf(from), z);
         const lmp_vec3 b = vec(r * cosf(to), s->springing + r * sinf(to), z);
         const lmp_vec3 c = vec(b.x, s->top, z), d = vec(a.x, s->top, z);

@@ -11,14 +11,15 @@
  * The vault is the upper of two crossing half cylinders. */
 static void put_groin_shell(scene_shaper *shaper, lmp_vec3 center, float half_x, float half_z,
                             float rise, int side) {
-    enum { STEPS = 10 };
-    lmp_vec3 points[2][STEPS + 1], normals[2][STEPS + 1];
-    for (int i = 0; i <= STEPS; i++) {
+    enum { STEPS_MAX = 10 };
+    const int steps = shaper_steps(shaper, STEPS_MAX);
+    lmp_vec3 points[2][STEPS_MAX + 1], normals[2][STEPS_MAX + 1];
+    for (int i = 0; i <= steps; i++) {
         lmp_vec3 *out = points[i & 1], *out_normals = normals[i & 1];
         const lmp_vec3 *in = points[~i & 1], *in_normals = normals[~i & 1];
-        const float s = (float)i / STEPS;
-        for (int k = 0; k <= STEPS; k++) {
-            const float t = s * (2.0f * (float)k / STEPS - 1.0f);
+        const float s = (float)i / (float)steps;
+        for (int k = 0; k <= steps; k++) {
+            const float t = s * (2.0f * (float)k / (float)steps - 1.0f);
             const float height = sqrtf(fmaxf(0.0f, 1.0f - t * t));
             const float along = side & 1 ? -s : s, across = side & 1 ? -t : t;
             const bool rotated = side & 2;
@@ -27,7 +28,7 @@ static void put_groin_shell(scene_shaper *shaper, lmp_vec3 center, float half_x,
             out_normals[k] = vec(rotated ? across / half_x : 0.0f, -height / rise,
                                  rotated ? 0.0f : -across / half_z);
         }
-        for (int k = 0; i > 0 && k < STEPS; k++) {
+        for (int k = 0; i > 0 && k < steps; k++) {
             const lmp_vec3 corners[4] = { in[k], out[k], out[k + 1], in[k + 1] };
             const lmp_vec3 corner_normals[4] = { in_normals[k], out_normals[k], out_normals[k + 1],
                                                  in_normals[k + 1] };

@@ -66,12 +66,16 @@ static bool parse_parameter(const builtin_scene *which, const char *text, size_t
             return base_fail(error, which->name, "tiles must be a whole number from 1 to %d",
                              TILES_MAX);
         parameters->tiles = (int)number;
+    } else if (key == 6 && memcmp(text, "detail", key) == 0 && which->tiled) {
+        if (!parse_number(value, value_length, 100, &number) || number == 0)
+            return base_fail(error, which->name, "detail must be a whole number from 1 to 100");
+        parameters->detail = (int)number;
     } else if (key == 4 && memcmp(text, "seed", key) == 0 && which->lanterns > 0) {
         if (!parse_number(value, value_length, UINT64_MAX, &parameters->seed))
             return base_fail(error, which->name, "seed must be a whole number");
     } else {
         return base_fail(error, which->name, "has no parameter \"%.*s\" (%s)", (int)key, text,
-                         which->lanterns > 0 ? "there are lanterns, tiles, seed"
+                         which->lanterns > 0 ? "there are lanterns, tiles, detail, seed"
                                              : "there are none");
     }
     return true;
@@ -83,7 +87,7 @@ bool builtin_make(const char *name, scene_builder *builder, base_error *error) {
         const builtin_scene *which = &builtin_scenes[i];
         if (strlen(which->name) != name_length || memcmp(name, which->name, name_length) != 0)
             continue;
-        builtin_parameters parameters = { which->lanterns, 1, 1 };
+        builtin_parameters parameters = { which->lanterns, 1, 100, 1 };
         const char *text = name + name_length;
         while (*text) {
             text++;

@@ -8,6 +8,7 @@
 /* Parameters of a built-in scene: "builtin:NAME:key=value,…". */
 typedef struct builtin_parameters {
     int lanterns, tiles;
+    int detail; /* percent */
     uint64_t seed;
 } builtin_parameters;
 

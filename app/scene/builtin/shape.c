@@ -27,6 +27,14 @@ void shaper_finish(scene_shaper *shaper) {
     memset(shaper->triangles, 0, sizeof shaper->triangles);
 }
 
+int shaper_steps(const scene_shaper *shaper, int steps) {
+    enum { LEAST = 4 };
+    if (shaper->detail == 0 || steps <= LEAST)
+        return steps;
+    const int fewer = steps * shaper->detail / 100;
+    return fewer < LEAST ? LEAST : fewer;
+}
+
 /* Returns room for `count` more indices of the shaper's material, or NULL. */
 static uint32_t *grow_triangles(scene_shaper *shaper, size_t count) {
     assert(shaper->material < SHAPE_MATERIALS_MAX);
@@ -176,7 +184,16 @@ static void put_revolved(const scene_shaper *shaper, const shape_revolution *sol
     put_vertex(shaper, vertex, position, n, angle * point.r, point.a);
 }
 
-void shape_revolve(scene_shaper *shaper, const shape_revolution *solid) {
+/* Returns the solid with as much detail as the shaper gives. */
+static shape_revolution simplify(const scene_shaper *shaper, const shape_revolution *solid) {
+    shape_revolution simple = *solid;
+    simple.segments = shaper_steps(shaper, solid->segments);
+    simple.flutes = simple.segments < solid->segments ? 0 : solid->flutes;
+    return simple;
+}
+
+void shape_revolve(scene_shaper *shaper, const shape_revolution *revolution) {
+    const shape_revolution simple = simplify(shaper, revolution), *const solid = &simple;
     const revolution_frame frame = frame_of_axis(solid->axis);
     const bool whole = solid->from == solid->to;
     const float from = solid->from, to = whole ? solid->from + 2.0f * PI : solid->to;

@@ -16,7 +16,11 @@ typedef struct scene_shaper {
     uint32_t material;                            /* of the shapes that follow */
     int quarters;
     lmp_vec3 origin;
+    int detail; /* percent of their steps that curves have, 0: all; columns with fewer are smooth */
 } scene_shaper;
+
+/* Returns how many of so many steps along a curve the shaper makes. */
+int shaper_steps(const scene_shaper *shaper, int steps);
 
 /* Appends the meshes to the builder, named after their materials, and frees the shaper. */
 void shaper_finish(scene_shaper *shaper);
