@@ -46,6 +46,11 @@ export function makeCamera({ eye, target, up, fov }, minimum, maximum) {
             const part = (axis) => (dot(from, axis) / dot(axis, axis) / depth + 1) / 2;
             return [part(right) * width, part(down) * height];
         },
+        // Returns where the camera is, and what it looks at.
+        view: () => [...eye, ...target],
+        place(view) {
+            [eye, target] = [view.slice(0, 3), view.slice(3, 6)];
+        },
         // Rotates by fractions of the image's height: in place inside a building, else around the
         // target.
         look(x, y) {

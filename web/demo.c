@@ -148,7 +148,7 @@ EXPORT const char *demo_unsupported(void) {
 }
 
 typedef struct demo_draw {
-    uint32_t first_index, index_count, material, masked, double_sided;
+    uint32_t first_index, index_count, material, masked, double_sided, plain;
     int32_t maps[SHARED_MAPS]; /* indices of textures, or -1 */
 } demo_draw;
 
@@ -164,7 +164,8 @@ EXPORT const demo_draw *demo_draw_at(size_t i) {
                          .index_count = mesh->index_count,
                          .material = mesh->material,
                          .masked = m->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND),
-                         .double_sided = m->flags & SCENE_DOUBLE_SIDED };
+                         .double_sided = m->flags & SCENE_DOUBLE_SIDED,
+                         .plain = gpu_material_is_plain(m) };
     for (int k = 0; k < SHARED_MAPS; k++)
         draw.maps[k] = m->maps[k].texture;
     return &draw;

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Lampion's C library and scenes as WebAssembly (demo.c).
-import bytes from 'demo.wasm';
+import packed from 'demo.wasm';
 
 const VERTEX = 16, LIGHT = 12, CONSTANTS = 8, AREA = 44; // in floats
 
 // A page has no files: any call for files, a clock or more memory returns -1.
 const nothing = new Proxy({}, { get: () => () => -1 });
 
+// Returns the module, which the page's script holds compressed: a third of the bytes is read sooner.
+function unpack() {
+    const bytes = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+    return new Response(bytes, { headers: { 'Content-Type': 'application/wasm' } });
+}
+
 export async function loadLibrary() {
-    const { instance } = await WebAssembly.instantiate(bytes, { env: nothing, wasi_snapshot_preview1: nothing });
+    const { instance } = await WebAssembly.instantiateStreaming(unpack(), { env: nothing, wasi_snapshot_preview1: nothing });
     const c = instance.exports;
     c._initialize();
     const memory = () => c.memory.buffer;
@@ -34,6 +40,7 @@ export async function loadLibrary() {
         openBuiltin: (name) => lend(new TextEncoder().encode(`${name}\0`), (at) => check(c.demo_open_builtin(at))),
         openFile: (data) => lend(data, (at) => check(c.demo_open_file(at, data.byteLength))),
         unsupported: () => text(c.demo_unsupported()),
+        materialSize: () => c.demo_material_size(),
         // Returns views of C's memory, valid until the next call that allocates.
         scene() {
             const [vertices, vertexCount, indices, indexCount, materials, materialConstants, materialCount, minimum, maximum] =
@@ -45,8 +52,8 @@ export async function loadLibrary() {
                 materialConstants: floats(materialConstants, CONSTANTS * materialCount),
                 minimum: [...floats(minimum, 3)], maximum: [...floats(maximum, 3)],
                 draws: Array.from({ length: c.demo_draw_count() }, (none, i) => {
-                    const [first, count, material, masked, doubleSided, ...maps] = words(c.demo_draw_at(i), 15);
-                    return { first, count, material, masked, doubleSided, maps: maps.map((map) => map | 0) };
+                    const [first, count, material, masked, doubleSided, plain, ...maps] = words(c.demo_draw_at(i), 16);
+                    return { first, count, material, masked, doubleSided, plain, maps: maps.map((map) => map | 0) };
                 }),
                 textures: Array.from({ length: c.demo_texture_count() }, (none, i) => {
                     const [width, height, srgb, wrapU, wrapV, at] = words(c.demo_texture(i), 6);

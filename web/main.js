@@ -3,7 +3,7 @@
 // passes the scene on.
 import { dragged, makeCamera, pick } from './camera.js';
 import { loadLibrary } from './library.js';
-import { makeRenderer, methods } from './renderer.js';
+import { draft, makeRenderer, methods, openContext } from './renderer.js';
 
 const element = (id) => document.getElementById(id);
 const canvas = element('view'), asked = new URLSearchParams(location.hash.slice(1));
@@ -35,12 +35,20 @@ function frameScene() {
     camera = makeCamera(library.camera(innerWidth / innerHeight), minimum, maximum);
 }
 
-function openBuiltin() {
-    library.openBuiltin(state.scene);
-    scatterLights();
+function showScene() {
     renderer.setScene(library.scene());
     frameScene();
 }
+
+function openBuiltin() {
+    library.openBuiltin(state.scene);
+    scatterLights();
+    showScene();
+}
+
+// Returns the scene of the first frame: the atrium with a third of its triangles, and without the lights that move. The
+// others are there at once.
+const roughly = (scene) => (scene.startsWith('atrium') ? `${scene}${scene.includes(':') ? ',' : ':'}detail=25` : null);
 
 // The atrium's own lanterns are the first 30, and do not move, nor do the room's four lights.
 function scatterLights() {
@@ -63,8 +71,7 @@ async function openFile(file) {
     state.scene = file.name;
     Object.assign(element('dropped'), { hidden: false, textContent: file.name, value: file.name });
     scatterLights();
-    renderer.setScene(library.scene());
-    frameScene();
+    showScene();
     showState();
 }
 
@@ -96,12 +103,26 @@ function measure(spent, now) {
         autoScale = scale;
 }
 
+const chosen = () => ({ method: state.method, bands: bandsTaken(), window: state.window });
+
 function draw(scale = autoScale) {
     fit(state.scale === 'auto' ? scale : Number(state.scale));
     lights = library.lights(seconds);
-    const { method, window } = state, settings = { method, bands: bandsTaken(), window };
-    const other = { method: 'preintegrated', bands: 100, window };
-    exposure = renderer.draw(camera, lights, settings, other, state.split ? state.divider : 1, exposure);
+    const other = { method: 'preintegrated', bands: 100, window: state.window };
+    exposure = renderer.draw(camera, lights, chosen(), other, state.split ? state.divider : 1, exposure);
+}
+
+// Shows the first frame, which takes a second or two without a GPU, before the whole scene is made. The frame after it is
+// shaded as chosen, and not waited for: its shaders are compiled, in another process, while the scene is made.
+async function drawRoughly(scene) {
+    library.openBuiltin(scene);
+    showScene();
+    fit(autoScale);
+    lights = library.lights(seconds);
+    const measured = renderer.draw(camera, lights, draft, draft, 1, exposure);
+    tell('');
+    await frameSeen();
+    renderer.draw(camera, lights, chosen(), chosen(), 1, measured);
 }
 
 // Nothing is drawn again until something changes, which takes some frames to be measured, because the first may compile
@@ -241,7 +262,7 @@ function watchPanel() {
 // --- the beginning ---
 
 function startRenderer() {
-    renderer = makeRenderer(canvas, library);
+    renderer = makeRenderer(openContext(canvas), library);
     element('lights').max = Math.min(1000, renderer.lightsMost);
 }
 
@@ -257,18 +278,27 @@ canvas.addEventListener('webglcontextrestored', () => {
     tell('');
 });
 
+// Waits until what has been drawn is seen.
+const frameSeen = () => new Promise((seen) => { requestAnimationFrame(() => requestAnimationFrame(seen)); });
+
 async function begin() {
-    library = await loadLibrary();
+    const loading = loadLibrary(), rough = roughly(state.scene);
+    openContext(canvas); // waits for the GPU's process, while other threads compile the library
+    library = await loading;
     startRenderer();
+    renderer.prepare(rough ? draft : chosen());
+    if (rough)
+        await drawRoughly(rough);
     openBuiltin();
+    tell('');
     element('panel').open = !asked.has('closed') && innerWidth > 600;
     watchPanel();
     showState();
-    tell('');
     tellCost();
     requestAnimationFrame(frame);
 }
-begin().catch((error) => tell(error.message, true));
+// Not before the page is loaded: until then browsers turn a sign of loading, and without a GPU that takes a core.
+addEventListener('load', () => setTimeout(() => begin().catch((error) => tell(error.message, true))));
 
 // for the console, and for tests
 globalThis.lampion = {

@@ -72,12 +72,12 @@ export function makeMesh(gl, scene) {
     const draws = [...scene.draws.filter(({ masked }) => !masked), ...scene.draws.filter(({ masked }) => masked)];
     return {
         materialConstants,
-        // opaque, masked: functions that return the program
-        draw(opaque, masked, units) {
+        // plain, opaque, masked: functions that return the program
+        draw({ plain, opaque, masked }, units) {
             gl.bindVertexArray(array);
             gl.cullFace(gl.BACK);
             for (const draw of draws) {
-                gl.useProgram(draw.masked ? masked() : opaque());
+                gl.useProgram(draw.plain ? plain() : draw.masked ? masked() : opaque());
                 blocks.bind(draw.material);
                 units.forEach((unit, i) => bindTexture(gl, unit, draw.maps[i] < 0 ? null : maps[draw.maps[i]]));
                 (draw.doubleSided ? gl.disable : gl.enable).call(gl, gl.CULL_FACE);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Draws a scene by WebGL 2 as the program does: a G-buffer, then one pass that shades and shows it.
+// Draws a scene by WebGL 2 as the program does: a G-buffer, its radiance, and the tones that are shown.
 import { bindTexture, makeMesh, makeTable } from './mesh.js';
-import { makeProgram, once, stages } from './shaders.js';
+import { later, makeProgram, once, stages } from './shaders.js';
 import { makeTargets } from './targets.js';
 
 const AREA_TEXELS = 11, AREAS_MOST = 64; // of shared.h and demo.c
@@ -12,13 +12,18 @@ export const methods = {
     coefficients: { bands: 10, define: '#define SHADE_COEFFICIENTS' },
     preintegrated: { bands: 100, define: '#define SHADE_PREINTEGRATED' },
     probes: { bands: 3, define: '#define SHADE_PROBES' },
+    draft: { bands: 1, define: '#define SHADE_DRAFT' },
 };
+// What the first frame of a scene is drawn by (draft.glsl).
+export const draft = { method: 'draft', bands: 1, window: 'none' };
 export const windows = ['none', 'hanning', 'lanczos']; // in the order of lmp_window
 
-// Makes the programs that shade, each when it is first used.
+// Makes the programs that shade, each when it is first used. Returns a function that begins one and returns what waits
+// for it.
 function makeShades(gl, lightsMost) {
     const programs = new Map();
-    return ({ method, bands, window }, areas) => {
+    return ({ method, bands, window }, shadesAreas) => {
+        const areas = shadesAreas && !['probes', 'draft'].includes(method); // probes are lit by areas, too
         const straight = method !== 'preintegrated' ? bands : areas ? Math.min(bands, 10) : 1;
         const key = `${method} ${straight} ${window} ${areas}`;
         if (!programs.has(key))
@@ -27,13 +32,13 @@ function makeShades(gl, lightsMost) {
 #define SHADE ${method === 'probes' ? 'shade_probes' : `lmp_shade_${method}`}
 ${methods[method].define}
 ${areas ? '#define SHADE_AREAS' : ''}`, lightsMost));
-        return programs.get(key)();
+        return programs.get(key);
     };
 }
 
 // Makes preintegrated lobes as textures, each when it is first used.
 function makeLobes(gl, library) {
-    const lobes = new Map(), format = gl.getExtension('OES_texture_float_linear') ? gl.RG32F : gl.RG16F;
+    const lobes = new Map(), format = once(() => (gl.getExtension('OES_texture_float_linear') ? gl.RG32F : gl.RG16F));
     return ({ method, bands, window }) => {
         const key = `${bands} ${window}`;
         if (method !== 'preintegrated')
@@ -43,7 +48,7 @@ function makeLobes(gl, library) {
             lobes.set(key, {
                 shape,
                 textures: {
-                    lobe_pairs: makeTable(gl, format, width, height, pairs, gl.RG, gl.LINEAR),
+                    lobe_pairs: makeTable(gl, format(), width, height, pairs, gl.RG, gl.LINEAR),
                     lobe_cells: makeTable(gl, gl.RGBA32F, cells.length / 4, 1, cells),
                     lobe_remap: makeTable(gl, gl.R32F, remap.length, 1, remap, gl.RED),
                 },
@@ -105,18 +110,27 @@ function makeBlock(gl, point, size) {
     };
 }
 
-export function makeRenderer(canvas, library) {
+export function openContext(canvas) {
     const gl = canvas.getContext('webgl2', { antialias: false, alpha: false, depth: false, powerPreference: 'high-performance' });
     if (!gl || !gl.getExtension('EXT_color_buffer_float'))
         throw new Error('this browser has no WebGL 2 with floating-point targets');
+    return gl;
+}
+
+export function makeRenderer(gl, library) {
+    const { canvas } = gl;
     const lightsMost = Math.min(1024, Math.floor(gl.getParameter(gl.MAX_UNIFORM_BLOCK_SIZE) / 48));
+    // Programs come first, so that they are compiled while the page builds its scene, and nothing here waits for the GPU.
     const shades = makeShades(gl, lightsMost), lobes = makeLobes(gl, library), targets = makeTargets(gl);
     const ggx = makeTable(gl, gl.RGBA32F, 32, 161, library.ggxTexels()), empty = gl.createVertexArray();
     const setFrame = makeBlock(gl, 0, 4 * 48), setLights = makeBlock(gl, 1, 48 * lightsMost);
-    const surface = makeSurface(gl, '', lightsMost), light = makeProgram(gl, stages.light, '', lightsMost);
-    // what few scenes need
-    const masked = once(() => makeSurface(gl, '#define SURFACE_MASKED', lightsMost)());
-    const areaLight = once(() => makeProgram(gl, stages.area, '', lightsMost)());
+    const light = makeProgram(gl, stages.light, '', lightsMost);
+    const tone = makeProgram(gl, stages.tone, '#define TONE tone_filmic', lightsMost);
+    const surfaces = {
+        plain: makeSurface(gl, '#define SURFACE_PLAIN', lightsMost), opaque: later(() => makeSurface(gl, '', lightsMost)),
+        masked: later(() => makeSurface(gl, '#define SURFACE_MASKED', lightsMost)),
+    };
+    const areaLight = later(() => makeProgram(gl, stages.area, '', lightsMost));
     const areas = makeTable(gl, gl.RGBA32F, AREA_TEXELS, AREAS_MOST);
     const volume = makeVolume(gl);
     let mesh = null, probes = null;
@@ -137,10 +151,10 @@ export function makeRenderer(canvas, library) {
             uploadAreas(lights.areas, areaCount);
         for (let unit = 0; unit < 16; unit++)
             bindTexture(gl, unit, null);
-        targets.bind();
+        targets.bindSurfaces();
         targets.clear();
         gl.enable(gl.DEPTH_TEST);
-        mesh.draw(surface, masked, Object.values(UNITS));
+        mesh.draw(surfaces, Object.values(UNITS));
         gl.disable(gl.CULL_FACE);
         gl.disable(gl.DEPTH_TEST);
         return { lightCount, areaCount };
@@ -148,7 +162,7 @@ export function makeRenderer(canvas, library) {
 
     // Draws the lights themselves in front of the surfaces.
     function drawLamps({ lightCount, areaCount }) {
-        targets.bind();
+        targets.bindSurfaces();
         gl.bindVertexArray(empty);
         gl.enable(gl.DEPTH_TEST);
         gl.enable(gl.CULL_FACE);
@@ -165,21 +179,20 @@ export function makeRenderer(canvas, library) {
         gl.disable(gl.DEPTH_TEST);
     }
 
-    // Shades a part of what is bound, x from … to of its width; gives radiance where the exposure is 0.
-    function shade(settings, { areaCount }, { width, height, exposure = 0, from = 0, to = 1 }) {
-        const probed = settings.method === 'probes'; // by areas, too
-        const { program, uniforms } = shades(settings, areaCount > 0 && !probed), lobe = lobes(settings);
+    // Shades a part of the G-buffer, x from … to of its width, into that many pixels of the radiance.
+    function shade(settings, { areaCount }, { width, height, from = 0, to = 1 }) {
+        const { program, uniforms } = shades(settings, areaCount > 0)(), lobe = lobes(settings);
         const textures = { ggx_texels: ggx, areas_texels: areas, material_constants: mesh.materialConstants, ...lobe.textures, ...targets.inputs() };
+        targets.bindRadiance();
         gl.useProgram(program);
         Object.entries(textures).forEach(([name, texture], unit) => {
             bindTexture(gl, unit, texture);
             gl.uniform1i(uniforms[name] ?? null, unit);
         });
-        if (probed)
+        if (settings.method === 'probes')
             volume.bind(15, uniforms, probes);
         gl.uniform4fv(uniforms.lobe_shape ?? null, lobe.shape);
         gl.uniform2f(uniforms.pixels, targets.width / width, targets.height / height);
-        gl.uniform1f(uniforms.exposure, exposure);
         gl.viewport(0, 0, width, height);
         gl.enable(gl.SCISSOR_TEST);
         gl.scissor(Math.round(from * width), 0, Math.round(to * width) - Math.round(from * width), height);
@@ -188,23 +201,35 @@ export function makeRenderer(canvas, library) {
         gl.disable(gl.SCISSOR_TEST);
     }
 
-    // Returns the exposure that the program would choose for the surfaces drawn.
+    // Returns the exposure that the program would choose for the surfaces drawn, of fewer pixels. They are a corner of the
+    // radiance, because a target of another format would have the shader compiled once more.
     function measureExposure(settings, drawn) {
-        const width = 160, height = 90, rgba = new Float32Array(4 * width * height);
-        const target = makeTable(gl, gl.RGBA32F, width, height), framebuffer = gl.createFramebuffer();
-        gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
-        gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target, 0);
+        const width = Math.min(160, targets.width), height = Math.min(90, targets.height), rgba = new Float32Array(4 * width * height);
         shade(settings, drawn, { width, height });
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, rgba);
-        gl.deleteFramebuffer(framebuffer);
-        gl.deleteTexture(target);
         return library.exposure(width, height, rgba.filter((x, i) => i % 4 < 3));
+    }
+
+    function show(exposure) {
+        const { program, uniforms } = tone();
+        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+        gl.viewport(0, 0, targets.width, targets.height);
+        gl.useProgram(program);
+        bindTexture(gl, 0, targets.radiance());
+        gl.uniform1i(uniforms.hdr, 0);
+        gl.uniform1f(uniforms.exposure, exposure);
+        gl.uniform1i(uniforms.flip, 1);
+        gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
     gl.frontFace(gl.CW);
     gl.depthFunc(gl.GREATER);
     return {
         gl, lightsMost,
+        // Begins to compile what shades so.
+        prepare(settings) {
+            shades(settings, false);
+        },
         setScene(scene) {
             mesh?.delete();
             mesh = makeMesh(gl, scene);
@@ -216,10 +241,10 @@ export function makeRenderer(canvas, library) {
                 volume.upload(probes = library.probes());
             const exposure = given || measureExposure(settings, drawn);
             drawLamps(drawn);
-            gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-            shade(settings, drawn, { width, height, exposure, to: split });
+            shade(settings, drawn, { width, height, to: split });
             if (split < 1)
-                shade(other, drawn, { width, height, exposure, from: split });
+                shade(other, drawn, { width, height, from: split });
+            show(exposure);
             return exposure;
         },
     };

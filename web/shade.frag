@@ -1,12 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* shade.frag - shade.comp and tone.frag in one pass, for WebGL 2: shades a pixel of the G-buffer by
- * SHADE and converts it for display. A page has no storage blocks: tables are textures. */
+/* shade.frag - shade.comp for WebGL 2: the radiance of a pixel of the G-buffer, by SHADE. A page has
+ * no storage blocks: tables are textures. */
 #include "gbuffer.glsl"
 #include "shared.h"
 #include "camera.glsl"
 #include "light.glsl"
-#include "tone.h"
 
+uniform sampler2D base_metallic, normals, roughness_kind, emissions, weights, depths;
+uniform vec2 pixels; /* pixels of the G-buffer per pixel of the target */
+out vec4 color;
+
+#ifdef SHADE_DRAFT
+#include "draft.glsl"
+#else
+uniform sampler2D material_constants; /* F0 and F90 of the materials' dielectrics */
 uniform sampler2D ggx_texels;
 #define LMP_GGX_TEXEL(i) texelFetch(ggx_texels, ivec2((i) % 32, (i) / 32), 0)
 #include "ggx.glsl"
@@ -39,12 +46,6 @@ vec3 shade_probes(lmp_surface surface, lmp_lobes lobes) {
 }
 #endif
 
-uniform sampler2D base_metallic, normals, roughness_kind, emissions, weights, depths;
-uniform sampler2D material_constants; /* F0 and F90 of the materials' dielectrics */
-uniform vec2 pixels;          /* pixels of the G-buffer per pixel of the target */
-uniform float exposure;       /* 0: the radiance is wanted */
-out vec4 color;
-
 vec3 shade_surface(ivec2 at, int kind) {
     camera_ray ray = camera_ray_through((vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0);
     vec4 base = texelFetch(base_metallic, at, 0);
@@ -60,16 +61,10 @@ vec3 shade_surface(ivec2 at, int kind) {
         lmp_lobes_of(surface, material, lmp_dielectric(min(constants.rgb, 1.0) * weight, weight));
     return SHADE(surface, lobes) + texelFetch(emissions, at, 0).rgb;
 }
-
-float transfer(float x) {
-    x = clamp(x, 0.0, 1.0);
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
-}
+#endif
 
 void main() {
-    /* The G-buffer's rows run from the top, the page's from the bottom. */
     ivec2 at = ivec2(gl_FragCoord.xy * pixels);
-    at.y = int(size_lights.y) - 1 - at.y;
     int kind = gbuffer_decode_kind(texelFetch(roughness_kind, at, 0).g);
     vec3 radiance = vec3(0.0);
     if (kind == SHARED_KIND_LIGHT)
@@ -77,9 +72,4 @@ void main() {
     else if (kind != SHARED_KIND_NONE)
         radiance = shade_surface(at, kind);
     color = vec4(radiance, 1.0);
-    if (exposure == 0.0)
-        return;
-    vec3 x = clamp(radiance * exposure, 0.0, SHARED_TONE_MAX);
-    color = vec4(transfer(tone_filmic(0, x.r, x.g, x.b)), transfer(tone_filmic(1, x.r, x.g, x.b)),
-                 transfer(tone_filmic(2, x.r, x.g, x.b)), 1.0);
 }

@@ -24,18 +24,20 @@ import surfaceFragment from '../shaders/program/surface.frag';
 import surfaceVertex from '../shaders/program/surface.vert';
 import texels from '../shaders/program/texels.glsl';
 import tone from '../shaders/program/tone.h';
+import toneFragment from '../shaders/program/tone.frag';
 import volume from './package/volume.glsl';
+import draft from './draft.glsl';
 import shade from './shade.frag';
 
 const files = {
     'area.glsl': area, 'area_hit.glsl': areaHit, 'areas.glsl': areas, 'texels.glsl': texels, 'light.frag': lightFragment,
-    'light.vert': lightVertex, 'camera.glsl': camera, 'coat.glsl': coat, 'coefficients.glsl': coefficients, 'gbuffer.glsl': gbuffer, 'ggx.glsl': ggx,
+    'light.vert': lightVertex, 'camera.glsl': camera, 'coat.glsl': coat, 'coefficients.glsl': coefficients, 'draft.glsl': draft, 'gbuffer.glsl': gbuffer, 'ggx.glsl': ggx,
     'lampion.glsl': lampion, 'light.glsl': light, 'preintegrated_lobe.glsl': lobe,
     'preintegrated_lookup.h': lookup, 'probe.glsl': probe, 'shared.h': shared, 'tone.h': tone, 'volume.glsl': volume,
 };
 export const stages = {
     surface: [surfaceVertex, surfaceFragment], light: [lightVertex, lightFragment],
-    area: [areaVertex, areaFragment], shade: [screen, shade],
+    area: [areaVertex, areaFragment], shade: [screen, shade], tone: [screen, toneFragment],
 };
 
 function expand(text) {
@@ -45,7 +47,7 @@ function expand(text) {
 function translate(text, fragment) {
     return expand(text)
         .replace(/layout\(std140, binding = point\)/g, 'layout(std140)')
-        .replace(/layout\(binding = \w+( \+ \d)?\) /g, '')
+        .replace(/layout\((binding|location) = \w+( \+ \d)?\) (?=uniform)/g, '')
         .replace(fragment ? /layout\(location = \d+\) (flat )?in /g : /layout\(location = \d+\) (flat )?out /g,
             (match, flat) => `${flat ?? ''}${fragment ? 'in' : 'out'} `)
         .replace(/\bgl_PrimitiveID\b/g, '0');
@@ -62,6 +64,12 @@ function compile(gl, type, text) {
 export function once(make) {
     let made;
     return () => (made ??= make());
+}
+
+// Returns a function that begins to make a program when it is first called, and waits for it.
+export function later(begin) {
+    const begun = once(begin);
+    return () => begun()();
 }
 
 // Waits until a program is linked; returns it with its uniforms. Blocks are bound where shared.h says.

@@ -10,7 +10,9 @@
 
 #include <lampion/lampion.h>
 
-#define SCENE_LIGHTS_MAX      65536 /* from all sources together */
+#ifndef SCENE_LIGHTS_MAX
+#define SCENE_LIGHTS_MAX 65536 /* from all sources together */
+#endif
 #define SCENE_MESH_LIGHTS_MAX 1024
 
 /* A vertex: 64 bytes, as the vertex shader reads them. */

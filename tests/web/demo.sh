@@ -9,7 +9,7 @@ page=$BUILD/web/page
 rm -rf "$page"
 sh web/build.sh "$BUILD/web" "$page" >"$WORK/log" 2>&1 || fail "$(tail -n 30 "$WORK/log")"
 size=$(cat "$page"/* | wc -c)
-[ "$size" -lt 5000000 ] || fail "the page has $size bytes"
+[ "$size" -lt 2000000 ] || fail "the page has $size bytes"
 ! grep -Eo '(src|href)="(https?:)?//[^"]*' "$page/index.html" || fail "the page loads from elsewhere"
 # what the linker does not find becomes a call that fails: only those for files and a clock may
 ! node -e 'const module = new WebAssembly.Module(require("fs").readFileSync(process.argv[1]));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // page.mjs FOLDER PROGRAM WORK: the demo in FOLDER as a visitor has it, opened from disk: what it draws against
-// PROGRAM's image, probes against their definition, lights dragged by mouse and finger, another size, a lost GPU, a
-// dropped file, a phone.
+// PROGRAM's image, its first frame, probes against their definition, lights dragged by mouse and finger, another
+// size, a lost GPU, a dropped file, a phone.
 import { strict as assert } from 'node:assert';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -67,6 +67,36 @@ async function draw() {
         (await evaluate('lampion.frameTime')).toFixed(0)} ms`);
     assert.ok(same <= 0.01, 'the page draws what lampion render does');
     await screenshot('desktop');
+}
+
+// Returns the brightness of an image's squares, 16 across and 9 down.
+const squares = (image) => evaluate(`(async () => {
+    const context = new OffscreenCanvas(16, 9).getContext('2d'), bitmap = await createImageBitmap(await (await fetch('data:image/png;base64,${image}')).blob());
+    context.imageSmoothingQuality = 'high';
+    context.drawImage(bitmap, 0, 0, 16, 9);
+    const { data } = context.getImageData(0, 0, 16, 9);
+    return Array.from({ length: 144 }, (none, i) => data[4 * i] + data[4 * i + 1] + data[4 * i + 2]);
+})()`);
+
+// The first frame, of a page that never gets to a second one: a draft of the atrium under its own lanterns.
+async function first() {
+    await browser.size(320, 180);
+    const { identifier } = await tell('Page.addScriptToEvaluateOnNewDocument', { source: 'globalThis.requestAnimationFrame = () => 0' });
+    await browser.open(`file://${folder}/index.html#closed`);
+    await until('document.getElementById("message")?.textContent === ""');
+    await until('document.getElementById("view").width === 80');
+    assert.ok(await evaluate('!lampion.ready && lampion.spheres().length / 12 === 30'), 'the lights that move are not there');
+    await evaluate('document.getElementById("panel").hidden = true');
+    const { data } = await tell('Page.captureScreenshot');
+    await tell('Page.removeScriptToEvaluateOnNewDocument', { identifier });
+    writeFileSync(`${work}/first.png`, Buffer.from(data, 'base64'));
+    execFileSync(program, ['render', 'builtin:atrium', '--no-shadows', '--size', '320x180', '-o', `${work}/atrium.png`]);
+    const shown = await squares(data), wanted = await squares(readFileSync(`${work}/atrium.png`).toString('base64'));
+    const mean = (a) => a.reduce((sum, x) => sum + x, 0) / a.length;
+    const product = (a, b) => mean(a.map((x, i) => (x - mean(a)) * (b[i] - mean(b))));
+    const alike = product(shown, wanted) / Math.sqrt(product(shown, shown) * product(wanted, wanted)), brighter = mean(shown) / mean(wanted);
+    console.log(`the first frame: correlation ${alike.toFixed(2)}, ${brighter.toFixed(2)} times as bright`);
+    assert.ok(alike >= 0.8 && brighter >= 0.7 && brighter <= 1.4, 'the first frame shows the atrium');
 }
 
 async function choose() {
@@ -269,7 +299,7 @@ async function phone() {
 
 let status = 0;
 try {
-    for (const step of [draw, choose, room, probes, lanterns, rest, small, drag, resize, adapt, lose, drop, phone]) {
+    for (const step of [draw, first, choose, room, probes, lanterns, rest, small, drag, resize, adapt, lose, drop, phone]) {
         console.time(step.name);
         await step();
         console.timeEnd(step.name);

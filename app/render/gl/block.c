@@ -41,6 +41,14 @@ void gpu_fill_material(const scene_material *from, size_t number, shared_materia
     fill_transmission(from, block->transmission);
 }
 
+bool gpu_material_is_plain(const scene_material *source) {
+    bool plain = !scene_is_layered(source) && !scene_is_translucent(source) &&
+                 !(source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND | SCENE_VERTEX_COLORS));
+    for (int i = 0; i < SCENE_MAPS; i++)
+        plain = plain && source->maps[i].texture < 0;
+    return plain;
+}
+
 shared_material_constants gpu_material_constants(const scene_material *m) {
     return (shared_material_constants) { { m->f0[0], m->f0[1], m->f0[2], m->f90 },
                                          { -1, scene_is_layered(m) ? 1 : 0 } };

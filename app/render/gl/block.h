@@ -9,6 +9,10 @@
 /* Fills the block of a scene's material `number`. */
 void gpu_fill_material(const scene_material *material, size_t number, shared_material *block);
 
+/* Whether a material has neither maps nor colors of vertices nor layers, and hides all behind it:
+ * SURFACE_PLAIN draws it. */
+bool gpu_material_is_plain(const scene_material *material);
+
 /* Returns the material constants of a material that no table replaces. */
 shared_material_constants gpu_material_constants(const scene_material *material);
 

@@ -96,14 +96,6 @@ static bool create_textures(const gpu_context *context, const scene *world, gpu_
 
 /* --- materials -------------------------------------------------------------------------------- */
 
-static bool is_plain(const scene_material *source) {
-    bool plain = !scene_is_layered(source) && !scene_is_translucent(source) &&
-                 !(source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND | SCENE_VERTEX_COLORS));
-    for (int i = 0; i < SCENE_MAPS; i++)
-        plain = plain && source->maps[i].texture < 0;
-    return plain;
-}
-
 static void fill_material(const scene *world, size_t number, const gpu_mesh *mesh,
                           gpu_material *material, shared_material *block) {
     const scene_material *source = &world->materials[number];
@@ -119,7 +111,7 @@ static void fill_material(const scene *world, size_t number, const gpu_mesh *mes
     material->layered = scene_is_layered(source);
     material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
     material->masked = source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND);
-    material->plain = is_plain(source);
+    material->plain = gpu_material_is_plain(source);
 }
 
 static bool create_materials(const scene *world, gpu_mesh *mesh) {
