@@ -33,6 +33,9 @@ function tell(message, wrong = false) {
 function frameScene() {
     const { minimum, maximum } = library.scene();
     camera = makeCamera(library.camera(innerWidth / innerHeight), minimum, maximum);
+    const view = asked.get('view')?.split(',').map(Number);
+    if (view?.length === 6 && view.every(Number.isFinite) && state.scene === scene)
+        camera.place(view);
 }
 
 function showScene() {
@@ -69,7 +72,7 @@ async function openFile(file) {
     const unsupported = library.unsupported();
     tell(unsupported && `${file.name}: left out: ${unsupported}${/file|image/.test(unsupported) ? '. Use a .glb, which holds its images.' : ''}`);
     state.scene = file.name;
-    Object.assign(element('dropped'), { hidden: false, textContent: file.name, value: file.name });
+    offer('dropped', file.name);
     scatterLights();
     showScene();
     showState();
@@ -202,8 +205,17 @@ addEventListener('drop', (event) => {
 
 // --- the panel ---
 
+// Shows a list's last option, for what none of the others is.
+function offer(id, value) {
+    Object.assign(element(id), { hidden: false, textContent: value, value });
+}
+
 function showState() {
     due = FRAMES;
+    if (!['auto', '1', '0.5'].includes(state.scale))
+        offer('scaled', state.scale);
+    element('share').disabled = state.scene === element('dropped').value; // no link has the file
+    element('shared').value = '';
     element('lights').min = usual(state.scene).fewest;
     for (const id of ['scene', 'lights', 'method', 'window', 'scale'])
         element(id).value = state[id];
@@ -243,7 +255,33 @@ function change(id, value) {
         tellCost();
 }
 
+// Returns the address of what is shown, but for lights that were dragged.
+function linkToState() {
+    const { scene, lights, bands, method, window, scale } = state, all = { scene, lights, bands, method, window, scale };
+    if (state.split)
+        all.split = state.divider.toFixed(3);
+    if (!state.moving)
+        all.time = seconds.toFixed(3);
+    if (asked.has('exposure'))
+        all.exposure = asked.get('exposure');
+    all.view = camera.view().map((x) => x.toFixed(4)).join();
+    return `${location.href.split('#')[0]}#${new URLSearchParams(all)}`;
+}
+
+// Copies the link; a browser that refuses, as most do on pages that are not secure, has it as the page's address.
+async function share() {
+    const link = linkToState();
+    try {
+        await navigator.clipboard.writeText(link);
+        element('shared').value = 'Copied.';
+    } catch {
+        history.replaceState(null, '', link);
+        element('shared').value = 'It is the address now.';
+    }
+}
+
 function watchPanel() {
+    element('share').addEventListener('click', share);
     for (const id of ['lights', 'bands'])
         element(id).addEventListener('input', (event) => change(id, Number(event.target.value)));
     for (const id of ['scene', 'method', 'window', 'scale'])

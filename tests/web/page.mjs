@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // page.mjs FOLDER PROGRAM WORK: the demo in FOLDER as a visitor has it, opened from disk: what it draws against
-// PROGRAM's image, its first frame, probes against their definition, lights dragged by mouse and finger, another
-// size, a lost GPU, a dropped file, a phone.
+// PROGRAM's image, its first frame, probes against their definition, lights dragged by mouse and finger, a link to what is
+// shown, another size, a lost GPU, a dropped file, a phone.
 import { strict as assert } from 'node:assert';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -220,7 +220,46 @@ async function small() {
     const panel = 'document.getElementById("panel")';
     assert.ok(await evaluate(`${panel}.open && ${panel}.scrollHeight <= ${panel}.clientHeight`), 'the panel does not scroll');
     assert.ok(await evaluate(`${panel}.getBoundingClientRect().bottom <= innerHeight`), 'the panel ends in the window');
+    assert.equal(await evaluate('document.getElementById("scale").selectedOptions[0].textContent'), '0.3');
     await screenshot('small');
+    await browser.size(320, 180);
+}
+
+// Presses the button by the keyboard, and returns what the page says then.
+async function pressShare(clipboard) {
+    await evaluate(`navigator.clipboard.writeText = ${clipboard}, document.getElementById("share").focus(), 0`);
+    for (const type of ['keyDown', 'keyUp'])
+        await tell('Input.dispatchKeyEvent', { type, key: 'Enter', code: 'Enter', windowsVirtualKeyCode: 13, text: type === 'keyDown' ? '\r' : '' });
+    await until('document.getElementById("shared").value !== ""');
+    return evaluate('document.getElementById("shared").value');
+}
+
+// The link that the button copies shows the same.
+async function share() {
+    await browser.size(640, 420);
+    await open('time=1.5&scale=0.25&lights=50&bands=5&window=none&method=coefficients&split=0.3&exposure=1');
+    const mouse = (type, [x, y]) => tell('Input.dispatchMouseEvent', { type, x, y, button: 'left', buttons: 1, clickCount: 1 });
+    const read = () => evaluate(`(async () => {
+        const bitmap = await ${pixels}, context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+        context.drawImage(bitmap, 0, 0);
+        return [...context.getImageData(0, 0, bitmap.width, bitmap.height).data];
+    })()`);
+    const unlike = (a, b) => (a.length === b.length ? a.filter((x, i) => Math.abs(x - b[i]) > 2).length / a.length : 1);
+    const before = await read();
+    await mouse('mousePressed', [320, 400]);
+    await mouse('mouseMoved', [380, 360]);
+    await mouse('mouseReleased', [380, 360]);
+    const shown = await read(), state = await evaluate('JSON.stringify(lampion.state)');
+    assert.ok(unlike(before, shown) > 2 * edges, 'the view has turned');
+    assert.equal(await pressShare('async (text) => { globalThis.copied = text; }'), 'Copied.');
+    await screenshot('share');
+    const link = await evaluate('copied');
+    assert.equal(await pressShare('() => Promise.reject(new Error("refused"))'), 'It is the address now.');
+    assert.equal(await evaluate('location.href'), link);
+    await open(link.split('#')[1]);
+    assert.equal(await evaluate('JSON.stringify(lampion.state)'), state);
+    const again = unlike(shown, await read());
+    assert.ok(again <= edges / 4, `the link shows the same: ${again} differs`);
     await browser.size(320, 180);
 }
 
@@ -281,6 +320,7 @@ async function drop() {
     gltf.buffers[0].uri = 'triangle.bin';
     await file('parts.gltf', JSON.stringify(gltf));
     await until('/^parts.gltf: .*triangle.bin.*use a .glb/.test(document.getElementById("message").textContent)');
+    assert.ok(await evaluate('document.getElementById("share").disabled'), 'no link holds a file');
 }
 
 async function phone() {
@@ -299,7 +339,7 @@ async function phone() {
 
 let status = 0;
 try {
-    for (const step of [draw, first, choose, room, probes, lanterns, rest, small, drag, resize, adapt, lose, drop, phone]) {
+    for (const step of [draw, first, choose, room, probes, lanterns, rest, small, share, drag, resize, adapt, lose, drop, phone]) {
         console.time(step.name);
         await step();
         console.timeEnd(step.name);
