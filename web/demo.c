@@ -12,6 +12,7 @@
 #include "app/scene/load/origin.h"
 #include "app/scene/texture.h"
 #include "web/probes.h"
+#include "web/splats.h"
 
 #include <emscripten/emscripten.h>
 #include <math.h>
@@ -284,6 +285,22 @@ EXPORT const float *demo_areas(void) {
 EXPORT const probes_grid *demo_light_probes(void) {
     probes_light(&demo.probes, demo.emitters, demo.sphere_count + demo.area_count);
     return &demo.probes;
+}
+
+/* Lights the splats by the lights as demo_move_lights has moved them; returns all SPLATS_COUNT. */
+EXPORT const splats_splat *demo_light_splats(int bands, int window) {
+    static splats_splat splats[SPLATS_COUNT];
+    static bool placed;
+    const lmp_shade_settings settings = { .bands = bands, .window = (lmp_window)window };
+    if (!placed)
+        splats_place(splats);
+    placed = true;
+    splats_light(splats, &settings, demo.emitters, demo.sphere_count + demo.area_count);
+    return splats;
+}
+
+EXPORT size_t demo_splat_count(void) {
+    return SPLATS_COUNT;
 }
 
 /* Moves sphere i. */

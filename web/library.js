@@ -83,6 +83,8 @@ export async function loadLibrary() {
                 texels: floats(texels, 28 * size[0] * size[1] * size[2]),
             };
         },
+        // Relights the splats; returns a view of them, as splats.h lays them out.
+        splats: (bands, window) => floats(c.demo_light_splats(bands, window), 18 * c.demo_splat_count()),
         dragLight: (i, [x, y, z]) => c.demo_drag_light(i, x, y, z),
         ggxTexels: () => floats(c.demo_ggx_texels(), 4 * 5152),
         exposure: (width, height, rgb) => lend(rgb, (at) => c.demo_exposure(width, height, at)),

@@ -3,7 +3,7 @@
 // passes the scene on.
 import { dragged, makeCamera, pick } from './camera.js';
 import { loadLibrary } from './library.js';
-import { draft, makeRenderer, methods, openContext } from './renderer.js';
+import { draft, makeRenderer, methods, openContext, windows } from './renderer.js';
 
 const element = (id) => document.getElementById(id);
 const canvas = element('view'), asked = new URLSearchParams(location.hash.slice(1));
@@ -44,7 +44,7 @@ function showScene() {
 }
 
 function openBuiltin() {
-    library.openBuiltin(state.scene);
+    library.openBuiltin(state.scene === 'splats' ? 'ball' : state.scene);
     scatterLights();
     showScene();
 }
@@ -111,6 +111,8 @@ const chosen = () => ({ method: state.method, bands: bandsTaken(), window: state
 function draw(scale = autoScale) {
     fit(state.scale === 'auto' ? scale : Number(state.scale));
     lights = library.lights(seconds);
+    if (state.scene === 'splats')
+        lights.splats = library.splats(bandsTaken(), windows.indexOf(state.window));
     const other = { method: 'preintegrated', bands: 100, window: state.window };
     exposure = renderer.draw(camera, lights, chosen(), other, state.split ? state.divider : 1, exposure);
 }
@@ -340,7 +342,8 @@ addEventListener('load', () => setTimeout(() => begin().catch((error) => tell(er
 
 // for the console, and for tests
 globalThis.lampion = {
-    draw, state, probes: () => library.probes(), spheres: () => lights.spheres, rested: () => refined, lightAt: (i) => [...lights.spheres.subarray(12 * i, 12 * i + 4)],
+    draw, state, probes: () => library.probes(), splats: () => lights.splats, spheres: () => lights.spheres, rested: () => refined, lightAt: (i) => [...lights.spheres.subarray(12 * i, 12 * i + 4)],
+    see: (point) => camera.project(point, innerWidth, innerHeight),
     project: (i) => camera.project([...lights.spheres.subarray(12 * i, 12 * i + 3)], innerWidth, innerHeight),
     pick: ([clientX, clientY]) => pick(lights.spheres, rayAt({ clientX, clientY }), 1),
     get exposure() { return exposure; },

@@ -2,6 +2,7 @@
 // Draws a scene by WebGL 2 as the program does: a G-buffer, its radiance, and the tones that are shown.
 import { bindTexture, makeMesh, makeTable } from './mesh.js';
 import { later, makeProgram, once, stages } from './shaders.js';
+import { makeSplats } from './splats.js';
 import { makeTargets } from './targets.js';
 
 const AREA_TEXELS = 11, AREAS_MOST = 64; // of shared.h and demo.c
@@ -132,7 +133,7 @@ export function makeRenderer(gl, library) {
     };
     const areaLight = later(() => makeProgram(gl, stages.area, '', lightsMost));
     const areas = makeTable(gl, gl.RGBA32F, AREA_TEXELS, AREAS_MOST);
-    const volume = makeVolume(gl);
+    const volume = makeVolume(gl), drawSplats = makeSplats(gl, lightsMost);
     let mesh = null, probes = null;
 
     function uploadAreas(texels, count) {
@@ -212,6 +213,7 @@ export function makeRenderer(gl, library) {
 
     function show(exposure) {
         const { program, uniforms } = tone();
+        gl.bindVertexArray(empty);
         gl.bindFramebuffer(gl.FRAMEBUFFER, null);
         gl.viewport(0, 0, targets.width, targets.height);
         gl.useProgram(program);
@@ -234,7 +236,8 @@ export function makeRenderer(gl, library) {
             mesh?.delete();
             mesh = makeMesh(gl, scene);
         },
-        // `other` is shown from `split` on, a fraction of the width. Returns the exposure, which is measured where 0 is given.
+        // lights.splats: those that are drawn over the surfaces. `other` is shown from `split` on, a fraction of the width.
+        // Returns the exposure, which is measured where 0 is given.
         draw(camera, lights, settings, other, split, given) {
             const { width, height } = canvas, drawn = drawSurfaces(camera, lights);
             if (settings.method === 'probes')
@@ -244,6 +247,8 @@ export function makeRenderer(gl, library) {
             shade(settings, drawn, { width, height, to: split });
             if (split < 1)
                 shade(other, drawn, { width, height, from: split });
+            if (lights.splats)
+                drawSplats(lights.splats, camera.ray(0, 0, 1).forward, targets.inputs().depths);
             show(exposure);
             return exposure;
         },

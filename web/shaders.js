@@ -20,6 +20,8 @@ import probe from '../shaders/lampion/probe.glsl';
 import lookup from '../shaders/lampion/preintegrated_lookup.h';
 import screen from '../shaders/program/screen.vert';
 import shared from '../shaders/program/shared.h';
+import splatFragment from './splat.frag';
+import splatVertex from './splat.vert';
 import surfaceFragment from '../shaders/program/surface.frag';
 import surfaceVertex from '../shaders/program/surface.vert';
 import texels from '../shaders/program/texels.glsl';
@@ -38,6 +40,7 @@ const files = {
 export const stages = {
     surface: [surfaceVertex, surfaceFragment], light: [lightVertex, lightFragment],
     area: [areaVertex, areaFragment], shade: [screen, shade], tone: [screen, toneFragment],
+    splat: [splatVertex, splatFragment],
 };
 
 function expand(text) {

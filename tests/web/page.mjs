@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // page.mjs FOLDER PROGRAM WORK: the demo in FOLDER as a visitor has it, opened from disk: what it draws against
-// PROGRAM's image, its first frame, probes against their definition, lights dragged by mouse and finger, a link to what is
-// shown, another size, a lost GPU, a dropped file, a phone.
+// PROGRAM's image, its first frame, probes against their definition, lights dragged by mouse and finger, splats, a link to what
+// is shown, another size, a lost GPU, a dropped file, a phone.
 import { strict as assert } from 'node:assert';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -44,6 +44,14 @@ async function differ(levels, ...options) {
         return count / (shown.length / 4);
     })()`);
 }
+
+// Returns the page's pixels, and the fraction of the bytes of two such that differ.
+const read = () => evaluate(`(async () => {
+    const bitmap = await ${pixels}, context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    return [...context.getImageData(0, 0, bitmap.width, bitmap.height).data];
+})()`);
+const unlike = (a, b) => (a.length === b.length ? a.filter((x, i) => Math.abs(x - b[i]) > 2).length / a.length : 1);
 
 async function screenshot(name) {
     const { data } = await tell('Page.captureScreenshot');
@@ -179,6 +187,64 @@ async function probes() {
     await screenshot('probes');
 }
 
+// Returns the integral of the cosine to n, where it is positive, over the cap of directions that a sphere covers: in closed
+// form where the horizon does not cut the cap, else as a sum over directions.
+function capCosine({ center, radius }, point, n) {
+    const way = center.map((x, axis) => x - point[axis]), distance = Math.hypot(...way), dot = (a, b) => a.reduce((sum, x, axis) => sum + x * b[axis], 0);
+    const axis = way.map((x) => x / distance), sine = radius / distance, t = dot(axis, n);
+    if (Math.abs(t) >= sine)
+        return t > 0 ? Math.PI * sine * sine * t : 0;
+    const across = Math.sqrt(1 - t * t), lowest = Math.sqrt(1 - sine * sine), steps = 200;
+    let sum = 0;
+    for (let i = 0; i < steps; i++)
+        for (let k = 0; k < steps; k++) {
+            const c = 1 - (1 - lowest) * (i + 0.5) / steps, s = Math.sqrt(1 - c * c);
+            sum += Math.max(0, c * t + s * across * Math.cos(2 * Math.PI * (k + 0.5) / steps));
+        }
+    return sum * 2 * Math.PI * (1 - lowest) / steps ** 2;
+}
+
+// Splats are matte surfaces under the lights, and are seen where the ball does not hide them.
+async function splats() {
+    const eye = [0, 1.75, 6.6], ball = [0, 1.18, 0], view = `view=${[...eye, 0, 1.12, 0]}`;
+    let centers;
+    await browser.size(320, 180);
+    for (const time of [0, 4]) {
+        await open(`scene=splats&time=${time}&scale=1&closed&lights=30&${view}`);
+        const { floats, lights } = await evaluate('lampion.draw(), { floats: [...lampion.splats()], lights: [...lampion.spheres()] }');
+        const spheres = Array.from({ length: lights.length / 12 }, (none, i) => lights.slice(12 * i, 12 * i + 7))
+            .map(([x, y, z, radius, ...radiance]) => ({ center: [x, y, z], radius, radiance }));
+        assert.equal(spheres.length, 30);
+        centers = Array.from({ length: floats.length / 18 }, (none, i) => floats.slice(18 * i, 18 * i + 3));
+        for (let i = 0; 18 * i < floats.length; i += 61) {
+            const [center, normal, along, across, albedo, color] = [0, 3, 6, 9, 12, 15].map((at) => floats.slice(18 * i + at, 18 * i + at + 3));
+            for (const axis of [along, across])
+                assert.ok(Math.abs(axis.reduce((sum, x, k) => sum + x * normal[k], 0)) <= 1e-5, `splat ${i} is flat`);
+            const lit = [0, 0, 0];
+            for (const sphere of spheres) {
+                const cosine = capCosine(sphere, center, normal);
+                sphere.radiance.forEach((x, channel) => { lit[channel] += x * cosine / Math.PI; });
+            }
+            for (const channel of [0, 1, 2])
+                assert.ok(Math.abs(color[channel] - albedo[channel] * lit[channel]) <= 2e-3 * lit[channel], `splat ${i}: ${color}, not ${lit} times ${albedo}`);
+        }
+    }
+    const shown = await read(), places = await evaluate(`${JSON.stringify(centers)}.map(lampion.see).map((place) => place.map((x) => Math.floor(x)))`);
+    await screenshot('splats');
+    await open(`scene=ball&time=4&scale=1&closed&lights=30&${view}`);
+    const bare = await read(), differs = ([x, y]) => [0, 1, 2].some((c) => Math.abs(shown[4 * (320 * y + x) + c] - bare[4 * (320 * y + x) + c]) > 2);
+    const sum = (a, b) => a.reduce((all, x, k) => all + x * b[k], 0), from = eye.map((x, k) => x - ball[k]);
+    const isHidden = (center) => { // whether the ray to the splat enters the ball, of radius 1, before it
+        const way = center.map((x, k) => x - eye[k]), a = sum(way, way), b = sum(way, from), root = b * b - a * (sum(from, from) - 1);
+        return root > 0 && -b - Math.sqrt(root) < a;
+    };
+    const front = places.filter((place, i) => !isHidden(centers[i]));
+    const behind = places.filter(([x, y], i) => isHidden(centers[i]) && !front.some((place) => Math.hypot(place[0] - x, place[1] - y) < 8));
+    const seen = front.filter(differs).length / front.length;
+    assert.ok(seen >= 0.7, `${seen} of the splats that nothing but lamps hides are seen`);
+    assert.ok(behind.length >= 50 && !behind.some(differs), `${behind.filter(differs).length} of ${behind.length} splats behind the ball are seen`);
+}
+
 // Lanterns that probes alone afford.
 async function lanterns() {
     await open('scene=atrium:lanterns=1000&time=0&scale=0.5&closed');
@@ -239,12 +305,6 @@ async function share() {
     await browser.size(640, 420);
     await open('time=1.5&scale=0.25&lights=50&bands=5&window=none&method=coefficients&split=0.3&exposure=1');
     const mouse = (type, [x, y]) => tell('Input.dispatchMouseEvent', { type, x, y, button: 'left', buttons: 1, clickCount: 1 });
-    const read = () => evaluate(`(async () => {
-        const bitmap = await ${pixels}, context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
-        context.drawImage(bitmap, 0, 0);
-        return [...context.getImageData(0, 0, bitmap.width, bitmap.height).data];
-    })()`);
-    const unlike = (a, b) => (a.length === b.length ? a.filter((x, i) => Math.abs(x - b[i]) > 2).length / a.length : 1);
     const before = await read();
     await mouse('mousePressed', [320, 400]);
     await mouse('mouseMoved', [380, 360]);
@@ -339,7 +399,7 @@ async function phone() {
 
 let status = 0;
 try {
-    for (const step of [draw, first, choose, room, probes, lanterns, rest, small, share, drag, resize, adapt, lose, drop, phone]) {
+    for (const step of [draw, first, choose, room, probes, splats, lanterns, rest, small, share, drag, resize, adapt, lose, drop, phone]) {
         console.time(step.name);
         await step();
         console.timeEnd(step.name);
