@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# The npm package: the same bytes from the same commit, structs where C has them, every function in node (npm.mjs), types
-# that agree with the code, and three.js, Babylon.js and PlayCanvas in a headless browser against `lampion render` of the
-# scenes that pages of three export. It needs Emscripten, npm, node and Chromium, and the engines, which the examples'
-# package-lock.json name, from npm's registry or its cache.
+# The npm package: the same bytes from the same commit, structs where C has them, every function in node (npm.mjs), wrong
+# arguments (npm_faults.mjs), types that agree with the code, and three.js, Babylon.js and PlayCanvas in a headless browser
+# against `lampion render` of the scenes that pages of three export. It needs Emscripten, npm, node and Chromium, and the
+# engines, which the examples' package-lock.json name, from npm's registry or its cache.
 set -eu
 . tests/checks/common.sh
 export ASAN_OPTIONS=detect_leaks=0 # GL drivers leak at exit
@@ -60,8 +60,10 @@ for engine in babylon playcanvas; do
 done
 enter three
 page=$WORK/examples/three
-cp "$SOURCE/tests/web/npm.mjs" .
-node npm.mjs >"$WORK/log" 2>&1 || fail "$(tail -c 3000 "$WORK/log")"
+for script in npm npm_faults; do
+    cp "$SOURCE/tests/web/$script.mjs" .
+    node $script.mjs >"$WORK/log" 2>&1 || fail "$(tail -c 3000 "$WORK/log")"
+done
 cp "$SOURCE/examples/npm/relight.mjs" .
 node relight.mjs >"$WORK/log" 2>&1 || fail "$(tail -c 3000 "$WORK/log")"
 awk '/root mean square error/ { found = 1; if (!($(NF - 1) <= 3)) exit 1 } END { exit !found }' "$WORK/log" || fail "relight.mjs: $(cat "$WORK/log")"

@@ -3,24 +3,25 @@
 //
 // Arguments live in C's memory while a call runs: numbers in arrays of that memory are passed as they are, all else is
 // copied to a stack of its own (Stack) and, where C writes, back.
-import { constants, functions, structs } from './api.js';
+import { constants, enums, functions, structs } from './api.js';
+import { conditions, explain, structConditions } from './conditions.js';
 import { extents, memberExtents, spread } from './extents.js';
-import { nullable, wholes } from './rules.js';
+import { Blocks, LampionError, Stack } from './memory.js';
+import { nullable, unbounded, wholes } from './rules.js';
+
+export { LampionError };
 
 const kinds = {
     i8: Int8Array, u8: Uint8Array, i16: Int16Array, u16: Uint16Array, i32: Int32Array, u32: Uint32Array, f32: Float32Array, f64: Float64Array,
 };
+for (const name of Object.keys(enums))
+    kinds[name] = Int32Array;
+const limits = { i8: [-128, 127], u8: [0, 255], i16: [-32768, 32767], u16: [0, 65535], i32: [-(2 ** 31), 2 ** 31 - 1], u32: [0, 2 ** 32 - 1] };
+// Functions of DataView.
+const [getters, setters] = ['get', 'set'].map((verb) => Object.fromEntries(Object.entries(kinds).map(([type, { name }]) => [type, verb + name.replace('Array', '')])));
+const memberNames = Object.fromEntries(Object.entries(structs).map(([type, { members }]) => [type, new Set(members.map(([name]) => name))]));
 const plainFloats = (name) => structs[name]?.members.every(([, type]) => type === 'f32');
-const access = (type) => kinds[type].name.replace('Array', ''); // of DataView's functions
 const arrays = new Set(['vec3_array', 'float_array', 'rgb_array', 'sh_array']);
-
-export class LampionError extends Error {
-    constructor(code, text) {
-        super(text);
-        this.name = 'LampionError';
-        this.code = code;
-    }
-}
 
 // An object of C's, until its destroy function.
 export class Handle {
@@ -32,39 +33,22 @@ export class Handle {
     }
 }
 
-// Memory of C's for the arguments of a call, which may be made within another.
-class Stack {
-    constructor(c, size = 1 << 16) {
-        Object.assign(this, { c, begin: c.malloc(size), top: 0, size, large: [] });
-    }
-    take(bytes) {
-        const at = this.begin + this.top;
-        if (this.top + bytes <= this.size) {
-            this.top += (bytes + 15) & ~15;
-            return at;
-        }
-        const memory = this.c.malloc(bytes);
-        if (!memory)
-            throw new LampionError(constants.ERROR_MEMORY, `${bytes} bytes do not fit into the memory that load() was given`);
-        this.large.push(memory);
-        return memory;
-    }
-    // Runs a function, and gives back all memory that it took.
-    within(run) {
-        const { top, large } = this, mine = [];
-        this.large = mine;
-        try {
-            return run();
-        } finally {
-            mine.forEach((memory) => this.c.free(memory));
-            Object.assign(this, { top, large });
-        }
-    }
+// Checks a number that is passed by value or within a struct: what is not a float has the range of its type.
+function checkNumber(type, value, name, range) {
+    const names = enums[type], own = limits[type];
+    if (typeof value !== 'number')
+        throw new TypeError(names ? `${name} is ${JSON.stringify(value)}, not a constant such as ${names[0]}` : `${name} is not a number`);
+    if (names && !(Number.isInteger(value) && value >= 0 && value < names.length))
+        throw new RangeError(`${name} is ${value}, none of ${names.join(', ')}`);
+    if (own && !(Number.isInteger(value) && value >= own[0] && value <= own[1]))
+        throw new RangeError(`${name} is ${value}, not ${own[0] ? 'an integer' : 'a count'}`);
+    if (own && range && value && !(value >= range[0] && value <= range[1]))
+        throw new RangeError(`${name} is ${value}, not ${range[0]} to ${range[1]}`);
 }
 
 export class Caller {
     constructor(c, memory) {
-        Object.assign(this, { c, memory, buffer: memory.buffer, stack: new Stack(c), bytes: new Uint8Array(memory.buffer), view: new DataView(memory.buffer) });
+        Object.assign(this, { c, memory, buffer: memory.buffer, stack: new Stack(c), blocks: new Blocks(), bytes: new Uint8Array(memory.buffer), view: new DataView(memory.buffer) });
         this.text = new TextDecoder();
         this.scratch = c.malloc(constants.SCRATCH_SIZE + constants.SCRATCH_ALIGNMENT);
         this.scratchAt = Math.ceil(this.scratch / constants.SCRATCH_ALIGNMENT) * constants.SCRATCH_ALIGNMENT;
@@ -90,50 +74,54 @@ export class Caller {
         if (type === 'bool')
             return view.getUint8(at) !== 0;
         if (kinds[type])
-            return view[`get${access(type)}`](at, true);
+            return view[getters[type]](at, true);
         if (type.of)
             return Array.from({ length: type.count }, (none, i) => this.read(type.of, at + i * this.size(type.of)));
         if (type.to) {
-            const pointer = view.getUint32(at, true);
-            return type.to === 'char' ? this.string(pointer) : pointer && context.count !== undefined ? this.list(type.to, pointer, context.count) : null;
+            const pointer = view.getUint32(at, true), { count, owner } = context;
+            return type.to === 'char' ? this.string(pointer) : pointer && count !== undefined ? this.list(type.to, pointer, count, owner) : null;
         }
         const value = {};
         for (const [name, member, offset] of structs[type].members)
             value[name] = member.to ? null : this.read(member, at + offset);
         for (const [name, member, offset] of structs[type].members.filter(([, member]) => member.to)) // their lengths are known now
-            value[name] = this.read(member, at + offset, { count: memberExtents[type]?.[name]?.(value) });
+            value[name] = this.read(member, at + offset, { count: memberExtents[type]?.[name]?.(value), owner: context.owner });
         return value;
     }
 
-    // Numbers as a view of C's memory, structs as copies.
-    list(type, pointer, count) {
-        if (kinds[type])
+    // Numbers as a view of C's memory, which lasts as long as their owner, structs as copies.
+    list(type, pointer, count, owner) {
+        if (kinds[type]) {
+            this.blocks.add(pointer, count * kinds[type].BYTES_PER_ELEMENT, owner);
             return new kinds[type](this.buffer, pointer, count);
+        }
         return Array.from({ length: count }, (none, i) => this.read(type, pointer + i * this.size(type)));
     }
 
     // --- writing ---------------------------------------------------------------------------------
 
-    write(type, at, value, name, context) {
+    write(type, at, value, name, context, range) {
         const { view } = this;
         if (type === 'bool')
             return view.setUint8(at, value ? 1 : 0);
         if (kinds[type]) {
-            if (typeof value !== 'number')
-                throw new TypeError(`${name} is not a number`);
-            return view[`set${access(type)}`](at, value, true);
+            checkNumber(type, value, name, range);
+            return view[setters[type]](at, value, true);
         }
         if (type.of) {
-            if (value?.length === undefined || value.length > type.count)
+            if (typeof value === 'string' || value?.length === undefined || value.length > type.count)
                 throw new TypeError(`${name} is not an array of at most ${type.count}`);
-            return Array.prototype.forEach.call(value, (one, i) => this.write(type.of, at + i * this.size(type.of), one, `${name}[${i}]`, context));
+            for (let i = 0; i < value.length; i++)
+                this.write(type.of, at + i * this.size(type.of), value[i], `${name}[${i}]`, context, range);
+            return undefined;
         }
         if (type.to)
             return view.setUint32(at, value === null ? 0 : this.pointer(type, value, name, context), true);
         return this.writeStruct(type, at, value, name, context);
     }
 
-    writeStruct(type, at, value, name, extent) {
+    // whole: whether members that are not given are zero, so that conditions on several can be checked.
+    writeStruct(type, at, value, name, extent, whole = true) {
         if (arrays.has(type))
             return this.writeArray(type, at, value, name, extent);
         if (value === null || typeof value !== 'object')
@@ -145,15 +133,22 @@ export class Caller {
             return members.forEach(([one, member, offset], i) => this.write(member, at + offset, value[i], `${name}[${i}]`));
         }
         for (const key of Object.keys(value)) {
-            if (!members.some(([one]) => one === key) && !/^is[A-Z]/.test(key)) // such as isColor of three's colors
+            if (!memberNames[type].has(key) && !/^(is[A-Z]|_)/.test(key)) // such as isColor of three's colors
                 throw new TypeError(`${name}.${key} is not a member of lmp_${type}`);
             if (value[key] === undefined)
                 throw new TypeError(`${name}.${key} is undefined`);
         }
-        const whole = memberExtents[type] && Object.fromEntries(members.map(([one]) => [one, value[one] ?? 0]));
-        for (const [one, member, offset] of members)
+        const fault = whole && structConditions[type]?.(value);
+        if (fault)
+            throw new RangeError(`${name}.${fault}`);
+        const all = memberExtents[type] && Object.fromEntries(members.map(([one]) => [one, value[one] ?? 0]));
+        for (const [one, member, offset, range] of members) {
+            const needed = memberExtents[type]?.[one]?.(all, extent);
+            if (arrays.has(member) && needed && !value[one] && !nullable.has(`${type}.${one}`))
+                throw new TypeError(`${name}.${one} is missing`);
             if (value[one] !== undefined)
-                this.write(member, at + offset, value[one], `${name}.${one}`, memberExtents[type]?.[one]?.(whole, extent));
+                this.write(member, at + offset, value[one], `${name}.${one}`, needed, range);
+        }
     }
 
     // An array of vectors, numbers, colors or coefficients: itself, or with strides.
@@ -161,8 +156,11 @@ export class Caller {
         const { view } = this, width = type === 'float_array' ? 1 : 3;
         const [values, count] = Array.isArray(extent) ? extent : [width, extent];
         const list = value instanceof Float32Array || Array.isArray(value), stride = list ? undefined : value?.stride;
-        if (value === null)
+        if (!value) {
+            if (Array.isArray(extent) ? extent[1] : extent)
+                throw new TypeError(`${name} is missing`);
             return;
+        }
         if (stride !== undefined && !(Number.isInteger(stride) && stride >= 0 && stride % 4 === 0))
             throw new RangeError(`${name}.stride is not a multiple of 4`);
         if (type === 'vec3_array' && !list) {
@@ -184,20 +182,26 @@ export class Caller {
         view.setUint32(at, pointer, true);
         view.setUint32(at + 4, stride ?? (type === 'float_array' ? 4 : 0), true);
         if (type === 'sh_array')
-            view.setInt32(at + 8, given.layout ?? 0, true);
+            this.write('sh_layout', at + 8, given.layout ?? 0, `${name}.layout`);
     }
 
     // Numbers of JavaScript's or C's memory, as a pointer of C's.
     numbers(type, value, name, needed = 0, constant = false) {
         const Kind = kinds[type];
-        if (constant && Array.isArray(value))
+        if (constant && Array.isArray(value)) {
+            const wrong = value.findIndex((one) => typeof one !== 'number');
+            if (wrong >= 0)
+                throw new TypeError(`${name}[${wrong}] is not a number`);
             value = Kind.from(value);
+        }
         if (!(value instanceof Kind))
             throw new TypeError(`${name} is not ${type[0] === 'f' ? 'a' : 'an'} ${Kind.name}`);
         if (value.length < needed)
             throw new RangeError(`${name} has ${value.length} values, and ${needed} are needed`);
-        if (value.buffer === this.buffer)
+        if (value.buffer === this.buffer) {
+            this.blocks.check(value, name);
             return value.byteOffset;
+        }
         const at = this.stack.take(value.byteLength);
         const copy = new Kind(this.buffer, at, value.length);
         copy.set(value);
@@ -222,6 +226,7 @@ export class Caller {
             if (value.type !== to)
                 throw new TypeError(`${name} holds lmp_${value.type}, not lmp_${to}`);
             this.own(value, name);
+            value.live(`${name} was freed`);
             this.enough(value.length, extent, name);
             return value.pointer;
         }
@@ -239,7 +244,7 @@ export class Caller {
         if (to.to) { // pointers to objects
             this.enough(value.length, extent, name);
             const at = this.stack.take(4 * value.length);
-            value.forEach((one, i) => this.view.setUint32(at + 4 * i, this.pointer(to, one, `${name}[${i}]`), true));
+            Array.from(value, (one, i) => this.view.setUint32(at + 4 * i, this.pointer(to, one, `${name}[${i}]`), true));
             return at;
         }
         if (!structs[to]) {
@@ -257,7 +262,8 @@ export class Caller {
             this.enough(list.length, extent, name);
         const { size } = structs[to], at = this.stack.take(size * list.length);
         this.bytes.fill(0, at, at + size * list.length);
-        list.forEach((one, i) => this.writeStruct(to, at + i * size, one, list === value ? `${name}[${i}]` : name, extent));
+        for (let i = 0; i < list.length; i++)
+            this.writeStruct(to, at + i * size, list[i], list === value ? `${name}[${i}]` : name, extent);
         return at;
     }
 
@@ -265,7 +271,7 @@ export class Caller {
 
     // Returns lmp_NAME as a function of JavaScript's: without the host, the scratch and the error, which are filled in
     // here, and without what is only written at the end, which it returns.
-    bind(name, { result, parameters }) {
+    bind(name, { result, parameters, bands }) {
         const f = this.c[`lmp_${name}`];
         const given = parameters.filter(([, , how]) => how === 'given').map(([parameter]) => parameter);
         const destroys = name.endsWith('_destroy');
@@ -295,15 +301,20 @@ export class Caller {
                             written.push([type.to, at]);
                             passed.push(at);
                         } else {
-                            passed.push(this.pass(name, parameter, type, args, destroys, extentOf(parameter)));
+                            passed.push(this.pass(name, parameter, type, args, destroys, extentOf(parameter), parameter === 'bands' ? bands : undefined));
                         }
                     }
+                    const fault = conditions[name]?.(args, this.api);
+                    if (fault)
+                        throw new RangeError(`${name}: ${fault}`);
                     const value = f(...passed);
                     this.after.forEach((copy) => copy());
                     if (result === 'status' && value)
-                        throw new LampionError(value, `${name}: ${error ? this.errorText(error) : this.string(this.c.lmp_result_text(value))}`);
-                    if (destroys && values[0])
+                        throw new LampionError(value, `${name}: ${this.reason(name, value, error, args)}`);
+                    if (destroys && values[0]) {
                         values[0].pointer = 0;
+                        this.blocks.removeOf(values[0]);
+                    }
                     const made = written.map(([type, at]) => type.to ? this.handle(type.to, this.view.getUint32(at, true), args) : this.read(type, at));
                     if (made.length)
                         return result === 'bool' && !value ? null : made.length === 1 ? made[0] : made;
@@ -315,9 +326,11 @@ export class Caller {
         };
     }
 
-    errorText(at) {
-        const begin = at + structs.parse_error.members.find(([name]) => name === 'text')[2];
-        return this.string(begin);
+    // Returns why a function failed.
+    reason(name, status, error, args) {
+        if (error)
+            return this.string(error + structs.parse_error.members.find(([member]) => member === 'text')[2]);
+        return (status === constants.ERROR_ARGUMENT && explain(name, args)) || this.string(this.c.lmp_result_text(status));
     }
 
     lendScratch() {
@@ -327,15 +340,12 @@ export class Caller {
         return at;
     }
 
-    pass(name, parameter, type, args, destroys, extent) {
+    pass(name, parameter, type, args, destroys, extent, bands) {
         const value = args[parameter];
         if (kinds[type]) {
-            if (typeof value !== 'number')
-                throw new TypeError(`${name}: ${parameter} is not a number`);
-            if (type[0] !== 'f' && !(Number.isInteger(value) && (type === 'i32' || value >= 0)))
-                throw new RangeError(`${name}: ${parameter} is ${value}, not ${type === 'i32' ? 'an integer' : 'a count'}`);
-            if (parameter === 'bands' && !(value >= 1 && value <= constants.BANDS_MAX))
-                throw new RangeError(`${name}: bands is ${value}, not 1 to ${constants.BANDS_MAX}`);
+            checkNumber(unbounded.has(`${name}.${parameter}`) ? 'i32' : type, value, `${name}: ${parameter}`);
+            if (bands && !(value >= bands[0] && value <= bands[1]))
+                throw new RangeError(`${name}: bands is ${value}, not ${bands[0]} to ${bands[1]}`);
             return value;
         }
         const words = `${name}: ${parameter}`, needed = extent?.(args, this.api);
@@ -361,7 +371,7 @@ export class Caller {
         if (result === 'void' || result === 'status')
             return undefined;
         if (structs[result])
-            return this.read(result, returned);
+            return this.read(result, returned, { owner: Object.values(args)[0] });
         if (!result.to)
             return result === 'bool' ? value !== 0 : result === 'u32' ? value >>> 0 : value;
         if (result.to === 'char')
@@ -370,7 +380,7 @@ export class Caller {
             return null;
         const count = extents[`${name}.result`]?.(args, this.api);
         if (count !== undefined)
-            return this.list(result.to, value, count);
+            return this.list(result.to, value, count, Object.values(args)[0]);
         return structs[result.to] ? this.read(result.to, value) : Object.assign(new Handle(this, result.to, value), { borrowed: true });
     }
 }
@@ -383,11 +393,15 @@ export class Structs {
         if (!pointer)
             throw new LampionError(constants.ERROR_MEMORY, `${length} structs lmp_${type} do not fit into the memory that load() was given`);
         caller.bytes.fill(0, pointer, pointer + size * length);
+        caller.blocks.add(pointer, size * length);
         Object.assign(this, { caller, type, length, pointer, size });
     }
-    check(i) {
+    live(fault = 'these structs were freed') {
         if (!this.pointer)
-            throw new TypeError('these structs were freed');
+            throw new TypeError(fault);
+    }
+    check(i) {
+        this.live();
         if (!(Number.isInteger(i) && i >= 0 && i < this.length))
             throw new RangeError(`there is no element ${i} of ${this.length}`);
         return this.pointer + i * this.size;
@@ -395,22 +409,31 @@ export class Structs {
     get(i) {
         return this.caller.read(this.type, this.check(i));
     }
+    // Returns one member of an element.
+    memberAt(i, member) {
+        const [, type, offset] = structs[this.type].members.find(([name]) => name === member);
+        return this.caller.read(type, this.check(i) + offset);
+    }
     // Sets the members given; the others stay as they are.
     set(i, value) {
-        this.caller.writeStruct(this.type, this.check(i), value, `[${i}]`);
+        this.caller.writeStruct(this.type, this.check(i), value, `[${i}]`, undefined, false);
     }
     // Where a member of the first element is, in numbers, and the bytes from one element to the next.
     array(member) {
+        this.live();
         const found = structs[this.type].members.find(([name]) => name === member);
         if (!found)
             throw new TypeError(`${member} is not a member of lmp_${this.type}`);
         const [, type, offset] = found, { buffer } = this.caller, end = this.pointer + this.size * this.length;
         const from = (skip) => new Float32Array(buffer, this.pointer + offset + skip, (end - this.pointer - offset - skip) / 4 | 0);
+        if (type !== 'f32' && structs[type]?.size !== 12)
+            throw new TypeError(`${member} is neither a float nor a vector`);
         return type === 'f32' ? { at: from(0), stride: this.size } : { x: from(0), y: from(4), z: from(8), stride: this.size };
     }
     free() {
-        if (this.pointer)
-            this.caller.c.free(this.pointer);
+        this.live();
+        this.caller.blocks.remove(this.pointer, this.size * this.length);
+        this.caller.c.free(this.pointer);
         this.pointer = this.length = 0;
     }
 }

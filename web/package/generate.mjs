@@ -9,6 +9,7 @@ import { nullable, wholes } from './rules.js';
 
 const [include, out] = process.argv.slice(2);
 const { inner: nodes } = JSON.parse(readFileSync(0));
+const headers = readdirSync(include).sort().filter((name) => name.endsWith('.h')).map((name) => readFileSync(`${include}/${name}`, 'utf8'));
 const plain = (name) => name.replace(/^(lmp_|LMP_)/, '');
 const sizes = { bool: 1, i8: 1, u8: 1, i16: 2, u16: 2, i32: 4, u32: 4, f32: 4, f64: 8 };
 const scalars = {
@@ -26,10 +27,15 @@ function textOf(node) {
     const gather = ({ kind, text = '', name, inner = [] }) =>
         (kind === 'InlineCommandComment' ? `@${name}` : text) + inner.map(gather).join(kind === 'FullComment' ? '\n' : '');
     const comment = node.inner?.find(({ kind }) => kind === 'FullComment');
-    return comment ? gather(comment).split('\n').map((line) => line.replace(/^ *\*? ?/, '').trimEnd()).join('\n').trim() : '';
+    return comment ? gather(comment).split('\n').map((line) => line.replace(/^ *\*? ?/, '').trimEnd()).join('\n').trim() : separated.get(node.name) ?? '';
 }
 
-// A type as call.js reads it: a scalar, the name of a struct, an array { of, count } or a pointer { to, constant }.
+// Comments that a macro separates from what they are of, where clang does not find them.
+const separated = new Map(headers.flatMap((text) =>
+    [...text.matchAll(/\/\*((?:(?!\*\/)[^])*)\*\/\n(?:#define.*\n)+(?:typedef struct |(?:LMP_EXPERIMENTAL )?LMP_API\s[^;(]*?)\b(lmp_\w+)(?= \{|\()/g)]
+        .map(([, comment, name]) => [name, comment.split(/\n \*\n/).map((part) => part.replace(/(^|\n) \* */g, ' ').trim()).join('\n')])));
+
+// A type as call.js reads it: a scalar, the name of an enumeration or a struct, an array { of, count } or a pointer { to, constant }.
 function typeOf(text) {
     text = text.replace(/^(struct|enum) /, '').trim();
     const array = text.match(/^(.*?) ?\[(\d+)\](.*)$/);
@@ -44,7 +50,7 @@ function typeOf(text) {
     if (scalars[text])
         return scalars[text];
     if (text.startsWith('lmp_'))
-        return enums[plain(text)] ? 'i32' : plain(text);
+        return plain(text); // of an enumeration, too
     throw new Error(`unknown type ${text}`);
 }
 
@@ -83,13 +89,15 @@ for (const node of nodes) {
     if (!node.name?.startsWith('lmp_') && node.kind !== 'EnumDecl')
         continue;
     if (node.kind === 'EnumDecl' && node.name?.startsWith('lmp_')) {
-        enums[plain(node.name)] = true;
+        const names = enums[plain(node.name)] = [];
+        sizes[plain(node.name)] = 4;
         let value = 0;
         for (const one of node.inner.filter(({ kind }) => kind === 'EnumConstantDecl')) {
             const given = one.inner?.find(({ kind }) => kind === 'ConstantExpr')?.value;
             value = given === undefined ? value : Number(given);
             constants[plain(one.name)] = value++;
             comments[plain(one.name)] = textOf(one);
+            names.push(plain(one.name));
         }
     } else if (node.kind === 'RecordDecl' && node.completeDefinition) {
         const members = [], { end, alignment: align } = layOut(node, 0, members);
@@ -100,8 +108,7 @@ for (const node of nodes) {
 }
 
 // Constants that are numbers, or products and sums of them.
-const macros = readdirSync(include).sort().flatMap((name) => name.endsWith('.h')
-    ? [...readFileSync(`${include}/${name}`, 'utf8').matchAll(/^#define LMP_([A-Z0-9_]+) +(\S.*?)(?: *\/\*.*)?$/gm)] : []);
+const macros = headers.flatMap((text) => [...text.matchAll(/^#define LMP_([A-Z0-9_]+) +(\S.*?)(?: *\/\*.*)?$/gm)]);
 for (const [, name, text] of macros) {
     const value = text.replace(/LMP_([A-Z0-9_]+)/g, (all, other) => constants[other]).replace(/UINT32_MAX/, '4294967295')
         .replace(/([0-9.])f\b/g, '$1');
@@ -127,6 +134,30 @@ const callable = functions.filter(({ name }) => !special.has(plain(name))).map((
     return { name: plain(node.name), parameters, result: status ? 'status' : text === 'void' ? 'void' : typeOf(text), comment: textOf(node) };
 });
 
+// --- what comments say in words ------------------------------------------------------------------
+
+const numberOf = (text) => text === 'pi' ? Math.PI : constants[plain(text)] ?? Number(text);
+const NUMBER = '(-?[0-9][0-9.e+-]*|LMP_[A-Z_]+|pi)';
+
+// The range of a number or of each of an array, as [low, high, whether 0 stands for a default], by its comment.
+function rangeOf(record, { name, type, comment }) {
+    const found = comment.match(new RegExp(`${NUMBER} … ${NUMBER}`))?.slice(1).map(numberOf);
+    return (type.of ?? type) !== 'bool' && found?.every(Number.isFinite) ? [...found, /_(desc|settings)$/.test(record) || comment.includes(`${name} = 0 means`)] : undefined;
+}
+
+// The bands that a function takes, where they are not those of all.
+function bandsOf(text) {
+    const [, low, high] = text.match(/([0-9]+) (?:…|to) (\w+) bands/) ?? text.match(/(?:at least(?= [0-9]+ bands)|bands must be at least) ([0-9]+)/) ?? [];
+    return [numberOf(low ?? '1'), numberOf(high ?? 'LMP_BANDS_MAX')];
+}
+
+// What LMP_ERROR_ARGUMENT means, if a function's comment says it.
+function faultOf({ comment }) {
+    const other = comment.match(/LMP_ERROR_ARGUMENT as for lmp_(\w+)/)?.[1];
+    const [, text] = comment.match(/LMP_ERROR_ARGUMENT: ([^;.\n]*)/) ?? [];
+    return other ? faultOf(callable.find(({ name }) => name === other)) : text?.replace(/^([^(]*)\)[^]*/, '$1').trim();
+}
+
 const shown = Object.entries(records).filter(([name]) => !hidden.has(name));
 const code = (value) => JSON.stringify(value).replace(/"([a-z_]+)":/g, '$1:').replaceAll('"', "'");
 writeFileSync(`${out}/api.js`, `// Made from Lampion's headers by generate.mjs.
@@ -135,11 +166,16 @@ ${Object.entries(constants).map(([name, value]) => `    ${name}: ${value},`).joi
 };
 export const structs = {
 ${Object.entries(records).map(([name, { size, members }]) =>
-        `    ${name}: { size: ${size}, members: ${code(members.map(({ name: member, type, at }) => [member, type, at]))} },`).join('\n')}
+        `    ${name}: { size: ${size}, members: ${code(members.map((member) => [member.name, member.type, member.at, rangeOf(name, member)].filter((one) => one !== undefined)))} },`).join('\n')}
+};
+export const enums = {
+${Object.entries(enums).filter(([, names]) => names.every((name, i) => constants[name] === i)).map(([name, names]) => `    ${name}: ${code(names)},`).join('\n')}
 };
 export const functions = {
-${callable.map(({ name, parameters, result }) =>
-        `    ${name}: { result: ${code(result)}, parameters: ${code(parameters.map(({ name: one, type, how }) => [one, type, how]))} },`).join('\n')}
+${callable.map((one) => {
+        const { name, result } = one, parameters = one.parameters.map(({ name: parameter, type, how }) => [parameter, type, how]);
+        return `    ${name}: ${code({ result, parameters, bands: bandsOf(one.comment), fault: faultOf(one) })},`;
+    }).join('\n')}
 };
 `);
 

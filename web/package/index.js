@@ -2,7 +2,7 @@
 // Lampion as WebAssembly: load() makes an instance with memory of its own, whose functions are those of the C
 // headers without the prefix lmp_. README.md tells how arguments are passed.
 import { constants, structs } from './api.js';
-import { Caller, Handle, LampionError, Structs } from './call.js';
+import { Caller, LampionError, Structs } from './call.js';
 
 export { LampionError };
 
@@ -13,13 +13,21 @@ const SIMD = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123
 
 const compiled = new Map(); // modules, which instances share
 
+function addressOf(source) {
+    try {
+        return new URL(source, globalThis.location?.href);
+    } catch {
+        throw new TypeError(`load: source is ${JSON.stringify(source)}, neither an address nor a module nor its bytes`);
+    }
+}
+
 // Compiles the module of this package, or one that was fetched in another way.
 async function compile(source, simd) {
     if (source instanceof WebAssembly.Module)
         return source;
     if (ArrayBuffer.isView(source) || source instanceof ArrayBuffer)
         return WebAssembly.compile(source);
-    const url = source ? new URL(source, globalThis.location?.href)
+    const url = source !== undefined ? addressOf(source)
         : simd ? new URL('lampion.wasm', import.meta.url) : new URL('lampion-scalar.wasm', import.meta.url);
     if (url.protocol === 'file:') {
         const node = 'node:fs/promises'; // in a variable, for bundlers for browsers not to look for it
@@ -32,8 +40,21 @@ async function compile(source, simd) {
     return WebAssembly.compile(await response.arrayBuffer());
 }
 
-export async function compileLampion({ source, simd = WebAssembly.validate(SIMD) } = {}) {
-    if (source)
+// Returns options, of which there are no others than those named.
+function optionsOf(name, given, names) {
+    if (given === null || typeof given !== 'object')
+        throw new TypeError(`${name} takes options, such as { ${names[0]} }, not ${given}`);
+    for (const option of Object.keys(given))
+        if (!names.includes(option))
+            throw new TypeError(`${name}: there is no option ${option}`);
+    return given;
+}
+
+export async function compileLampion(options = {}) {
+    const { source, simd = WebAssembly.validate(SIMD) } = optionsOf('compileLampion', options, ['source', 'simd']);
+    if (typeof simd !== 'boolean')
+        throw new TypeError(`load: simd is ${JSON.stringify(simd)}, neither true nor false`);
+    if (source !== undefined)
         return compile(source);
     if (!compiled.has(simd))
         compiled.set(simd, compile(undefined, simd));
@@ -45,9 +66,8 @@ export async function compileLampion({ source, simd = WebAssembly.validate(SIMD)
     }
 }
 
-export async function load({ memory: bytes = 64 << 20, source, simd, ...others } = {}) {
-    for (const name of Object.keys(others))
-        throw new TypeError(`load: there is no option ${name}`);
+export async function load(options = {}) {
+    const { memory: bytes = 64 << 20, source, simd } = optionsOf('load', options, ['memory', 'source', 'simd']);
     if (!(bytes >= MEMORY_MIN && bytes <= MEMORY_MAX))
         throw new RangeError(`load: memory is ${bytes} bytes, not ${MEMORY_MIN} to ${MEMORY_MAX}`);
     const module = await compileLampion({ source, simd });
@@ -59,17 +79,17 @@ export async function load({ memory: bytes = 64 << 20, source, simd, ...others }
         wasi_snapshot_preview1: new Proxy({}, { get: () => () => 8 }), // there are no files
         lampion: {
             call(x, y, z, at) {
-                const value = projected.at(-1)([x, y, z]);
-                if (typeof value === 'number')
-                    caller.view.setFloat32(at, value, true);
-                else
-                    new Float32Array(memory.buffer, at, 3).set([value.r ?? value[0], value.g ?? value[1], value.b ?? value[2]]);
+                const { f, name, planes } = projected.at(-1), value = f([x, y, z]);
+                const values = planes === 1 ? [value] : [value?.r ?? value?.[0], value?.g ?? value?.[1], value?.b ?? value?.[2]];
+                if (!values.every((one) => typeof one === 'number'))
+                    throw new TypeError(`${name}: the function returned ${value}, not ${planes === 1 ? 'a number' : 'a color'}`);
+                new Float32Array(memory.buffer, at, planes).set(values);
             },
         },
     };
     const { exports: c } = await WebAssembly.instantiate(module, imports);
     c._initialize?.();
-    const caller = new Caller(c, memory), live = new Set(); // addresses of arrays
+    const caller = new Caller(c, memory), { blocks } = caller;
 
     const numbers = (Kind) => (count) => {
         if (!(Number.isInteger(count) && count >= 0))
@@ -77,7 +97,7 @@ export async function load({ memory: bytes = 64 << 20, source, simd, ...others }
         const at = c.malloc(count * Kind.BYTES_PER_ELEMENT || 1);
         if (!at)
             throw new LampionError(constants.ERROR_MEMORY, `${count} numbers do not fit into the memory of ${bytes} bytes that load() was given`);
-        live.add(at);
+        blocks.add(at, count * Kind.BYTES_PER_ELEMENT);
         return new Kind(memory.buffer, at, count).fill(0);
     };
     const project = (bands, nodes, f, sh, name, planes) => {
@@ -87,9 +107,11 @@ export async function load({ memory: bytes = 64 << 20, source, simd, ...others }
             throw new RangeError(`${name}: bands is not 1 to ${constants.BANDS_MAX}, or nodes not a count`);
         if (!(sh instanceof Float32Array && sh.length >= planes * bands * bands))
             throw new RangeError(`${name}: sh is not a Float32Array of ${planes * bands * bands} values`);
+        if (sh.buffer === memory.buffer)
+            blocks.check(sh, `${name}: sh`);
         caller.stack.within(() => {
             const at = caller.stack.take(4 * planes * bands * bands);
-            projected.push(f);
+            projected.push({ f, name, planes });
             try {
                 c[planes === 1 ? 'lampion_project' : 'lampion_project_rgb'](bands, nodes, at);
             } finally {
@@ -99,10 +121,8 @@ export async function load({ memory: bytes = 64 << 20, source, simd, ...others }
         });
     };
     const encode = (name) => (brdf) => caller.stack.within(() => {
-        if (!(brdf instanceof Handle && brdf.kind === 'brdf' && brdf.pointer))
-            throw new TypeError(`${name} takes an lmp_brdf`);
-        const at = caller.stack.take(8);
-        const status = c[`lmp_${name}`](0, brdf.pointer, at, at + 4);
+        const at = caller.stack.take(8), pointer = caller.pointer({ to: 'brdf' }, brdf, `${name}: brdf`);
+        const status = c[`lmp_${name}`](0, pointer, at, at + 4);
         if (status)
             throw new LampionError(status, `${name}: ${caller.string(c.lmp_result_text(status))}`);
         const [data, size] = new Uint32Array(memory.buffer, at, 2);
@@ -117,8 +137,10 @@ export async function load({ memory: bytes = 64 << 20, source, simd, ...others }
         brdf_encode_merl: encode('brdf_encode_merl'), brdf_encode_rgl: encode('brdf_encode_rgl'),
         // The texels of LightProbeVolume: `count` probes of 3 bands, interleaved, as halves, both in this memory.
         pack_volume(sh, count, halves) {
-            if (!(sh.buffer === memory.buffer && sh.length >= 27 * count && halves.buffer === memory.buffer && halves.length >= 28 * count))
+            if (!(Number.isInteger(count) && sh.buffer === memory.buffer && sh.length >= 27 * count && halves.buffer === memory.buffer && halves.length >= 28 * count))
                 throw new RangeError('pack_volume: an array is too short, or not of this instance\'s memory');
+            blocks.check(sh, 'pack_volume: sh');
+            blocks.check(halves, 'pack_volume: halves');
             c.lampion_pack_volume(sh.byteOffset, count, halves.byteOffset);
         },
         floats: numbers(Float32Array), doubles: numbers(Float64Array), halves: numbers(Uint16Array), uints: numbers(Uint32Array), bytes: numbers(Uint8Array),
@@ -131,11 +153,11 @@ export async function load({ memory: bytes = 64 << 20, source, simd, ...others }
             return new Structs(caller, type, count);
         },
         free(array) {
+            if ((array instanceof Structs ? array.caller : array?.buffer) !== (array instanceof Structs ? caller : memory.buffer))
+                throw new TypeError('free: this array is not of this instance\'s memory');
             if (array instanceof Structs)
                 return array.free();
-            if (array?.buffer !== memory.buffer)
-                throw new TypeError('free: this array is not of this instance\'s memory');
-            if (!live.delete(array.byteOffset))
+            if (!blocks.remove(array.byteOffset, array.byteLength))
                 throw new TypeError('free: this array was freed, or is a part of one');
             c.free(array.byteOffset);
         },
