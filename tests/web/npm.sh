@@ -57,6 +57,8 @@ enter() {
 }
 for engine in babylon playcanvas; do
     enter $engine
+    cp "$SOURCE/tests/web/npm_engines.mjs" .
+    node npm_engines.mjs $engine >"$WORK/log" 2>&1 || fail "$engine: $(tail -c 3000 "$WORK/log")"
 done
 enter three
 page=$WORK/examples/three
@@ -171,6 +173,10 @@ await send('three.exr', await new EXRExporter().parse(renderer, target, { type: 
 END
 draw first first.html --bands 10
 within first 4e-4 || fail "the page of docs/npm.md is not within 2 %: $(cat "$WORK/log")"
+
+# Materials of every kind by WebGPU.
+cp "$SOURCE/tests/web/materials.html" "$page"
+node "$SOURCE/tests/web/materials.mjs" "$page" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
 
 # A room of lanterns on probes, lit beside the page and within it.
 node "$SOURCE/tests/web/lanterns.mjs" "$page" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"

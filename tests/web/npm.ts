@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // npm.ts: what the npm package's types allow and refuse; compiled, not run.
-import { Box3, LightProbe, MeshStandardMaterial, Quaternion, Scene } from 'three';
+import { Box3, LightProbe, Material, MeshStandardMaterial, Quaternion, Scene } from 'three';
 import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { Scene as BabylonScene } from '@babylonjs/core/scene.js';
 import { AppBase, Entity, Vec3 } from 'playcanvas';
@@ -29,6 +29,11 @@ const surfaces: Surfaces = { position: sh, normal: sh, view: sh, material: { dif
 lmp.shade_n(null, surfaces, 1, [lamp], 1, sh);
 const lights = lmp.structs('light', 2);
 lights.set(0, lamp);
+const { radius = 0 } = lights.get(0), glow0: number = radius + lights.array('radius').at[0];
+// @ts-expect-error no such member
+lights.set(0, { radious: glow0 });
+// @ts-expect-error no such struct
+lmp.structs('lights', 2);
 lmp.light_project_n(3, lights, 2, null, { x: sh, y: sh, z: sh, stride: 12 }, 1, { at: sh, layout: lmp.SH_PLANAR });
 const [whole, series] = lmp.brdf_table_find_albedo(lmp.brdf_table_create(null, lmp.brdf_create_lambert([1, 1, 1])), 0, 0);
 const found = lmp.probe_recognize(3, 1e-3, sh, sh);
@@ -60,7 +65,9 @@ const text: string = lampionWgsl({ bands: 3, window: 'hanning', ggx: true });
 // @ts-expect-error no such window
 lampionWgsl({ bands: 3, window: 'hann' }).includes(text);
 new NodeLights(lmp, scene, { bands: 5, most: 10 }).update();
-new NodeVolume(lmp, new Box3(), [2, 2, 2]).update(scene);
+new NodeVolume(lmp, new Box3(), [2, 2, 2]).add(new Material());
+// @ts-expect-error a material that is not lit
+volume.add(new Material());
 
 const area: { min: Vector3, max: Vector3, size: [number, number, number] } = { min: new Vector3(0, 0, 0), max: new Vector3(1, 1, 1), size: [2, 2, 2] };
 const bulb = new BabylonLight('bulb', new BabylonScene(), { radius: 0.2 });

@@ -265,3 +265,65 @@ await assert.rejects(load({ source: 'nope.wasm' }), /source is "nope.wasm", neit
 await assert.rejects(load({ source: 7 }), /source is 7/);
 await assert.rejects(load({ simd: 'yes' }), /simd is "yes"/);
 await assert.rejects(load({ memory: '64MB' }), RangeError);
+
+// --- three.js ------------------------------------------------------------------------------------
+{
+    const three = await import('three'), { LightProbeVolume, SphereLight, SphereLights, SplatLights, lightProbe } = await import('lampion/three');
+    const { SphereTexels } = await import('./node_modules/lampion/glsl.js'), webgpu = await import('lampion/three-webgpu');
+    const scene = new three.Scene(), lamp = new SphereLight(0xff8000, 2, 0.2), ball = new three.Mesh(new three.SphereGeometry(), new three.MeshStandardMaterial());
+    const matte = new three.MeshLambertMaterial(), box = new three.Box3(new three.Vector3(), new three.Vector3(1, 1, 1));
+    scene.add(lamp, ball, new three.Mesh(ball.geometry, matte));
+    const lights = new SphereLights(lmp, scene), volume = new LightProbeVolume(lmp, box, [2, 2, 2]), splats = new SplatLights(lmp);
+    lamp.position.set(0, 0, 1);
+    lights.update();
+    const [before] = lights.spheres.radiance;
+    const withLamp = (members) => () => {
+        const { intensity, radius } = lamp, { x } = lamp.position;
+        Object.assign(lamp, members);
+        lamp.position.x = members.x ?? x;
+        try {
+            lights.update();
+        } finally {
+            Object.assign(lamp, { intensity, radius });
+            lamp.position.x = x;
+        }
+    };
+    const placed = { positions: floats(6), albedo: floats(6) }, where = new RegExp(`SphereLight ${lamp.uuid}`);
+    refuse([
+        [withLamp({ intensity: NaN }), where],
+        [withLamp({ intensity: NaN }), /its intensity is NaN, not a number/],
+        [withLamp({ intensity: '3' }), /its intensity is "3", not a number/],
+        [withLamp({ radius: '0.2' }), /its radius is "0.2", not above 0/],
+        [withLamp({ radius: 0 }), /its radius is 0, not above 0; 0.01 stands for a point/],
+        [withLamp({ radius: Infinity }), /its radius is Infinity/],
+        [withLamp({ x: NaN }), /its position is NaN/],
+        [() => new SphereLight({ color: 0xffffff, radius: 0.1 }), /takes a color, an intensity and a radius, not an object/],
+        [() => new SphereLights(lmp, scene, { band: 8 }), /SphereLights: there is no option band, only bands/],
+        [() => new SphereLights(lmp, scene, 8), /SphereLights takes options, such as \{ bands \}, not 8/],
+        [() => new SphereLights(lmp, lmp), /is not a scene/],
+        [() => new webgpu.SphereLights(lmp, scene, { most: 0 }), /most is 0, not a number of lights/],
+        [() => new webgpu.SphereLights(lmp, scene, { bands: 33 }), /bands is 33, not 1 to 32/],
+        [() => new webgpu.SphereLights(lmp, scene, { max: 3 }), /no option max, only bands, most/],
+        [() => new LightProbeVolume(lmp, { min: [0, 0, 0], max: [1, 1, 1] }, [2, 2, 2]), /is not a Box3/],
+        [() => new LightProbeVolume(lmp, box, new three.Vector3(2, 2, 2)), /size is {"x":2,"y":2,"z":2}, not three counts/],
+        [() => new LightProbeVolume(lmp, box, [2, 2, 2], { worker: true }), /worker is true, not a Worker/],
+        [() => new LightProbeVolume(lmp, box, [2, 2, 2], { workers: 1 }), /no option workers/],
+        [() => volume.add(matte), /MeshLambertMaterial .* cannot be lit, but a MeshStandardMaterial or a MeshPhysicalMaterial/],
+        [() => volume.add(ball), /Mesh .* cannot be lit/],
+        [() => volume.add(), /undefined cannot be lit/],
+        [() => volume.add(ball.material), new RegExp(`MeshStandardMaterial ${ball.material.uuid} is already lit`)],
+        [() => lightProbe(lmp, undefined), /undefined is not a scene/],
+        [() => splats.light(scene, placed, floats(3)), /f_dc is not a Float32Array of three numbers per splat/],
+        [() => splats.light(scene, { ...placed, albedo: floats(3) }, floats(6)), /albedo is not/],
+        [() => splats.light(scene, { ...placed, normals: floats(3) }, floats(6)), /normals is not/],
+        [() => splats.light(scene, { positions: floats(6), albedos: floats(6) }, floats(6)), /no option albedos/],
+        [() => splats.rotate([0, 0, 0, 1], 3, floats(24)), /Array is not a Quaternion/],
+        [() => splats.rotate(new three.Quaternion(), 1, floats(24)), /bands is 1, not 2 or more/],
+        [() => new SphereTexels().write({ count: 2 ** 20 + 1 }), /1048577 lights, more than 1048576/],
+    ]);
+    lights.update();
+    assert.equal(lights.spheres.radiance[0], before);
+    const { object } = lamp.toJSON();
+    assert.deepEqual([object.type, object.color, object.intensity, object.radius], ['SphereLight', 0xff8000, 2, 0.2]);
+    volume.addScene(new three.Scene().add(new three.Mesh(ball.geometry, matte))); // not lit, and no fault
+}

@@ -12,6 +12,7 @@ export class SphereLight extends TransformNode {
     /** Linear. */
     color: Color3;
     intensity: number;
+    /** Above 0; 0.01 stands for a point. */
     radius: number;
     /** Of its surface, candela per square meter. */
     radiance: number;
@@ -29,7 +30,9 @@ export class SphereLights {
 /** A grid of probes in a box, relit by update(): diffuse light of many lights, at one cost per pixel. */
 export class LightProbeVolume {
     constructor(lmp: Lampion, scene: Scene, options: { min: Vector3, max: Vector3, size: [number, number, number] });
+    /** material: a PBRMaterial; others throw. */
     add<T extends Material>(material: T): T;
+    /** Adds those of its materials that can be lit. */
     addScene(scene: Scene): void;
     /** Lights the probes by the SphereLights of the scene. */
     update(): void;

@@ -10,6 +10,7 @@ import { Color3 } from '@babylonjs/core/Maths/math.color.js';
 import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { TransformNode } from '@babylonjs/core/Meshes/transformNode.js';
 import { SphereTexels, checkBands, lightsGlsl, tableTexels, volumeGlsl } from './glsl.js';
+import { optionsOf } from './options.js';
 import { Patches } from './patches.js';
 import { ProbeGrid, SLABS } from './probes.js';
 import { Spheres, radianceOf } from './spheres.js';
@@ -17,8 +18,9 @@ import { Spheres, radianceOf } from './spheres.js';
 // A glowing sphere. Its intensity is that of a point light, in candela, whatever its radius: it keeps its light as it
 // grows. The color is linear.
 export class SphereLight extends TransformNode {
-    constructor(name, scene, { color = Color3.White(), intensity = 1, radius = 0.1 } = {}) {
-        super(name, scene);
+    constructor(name, scene, options = {}) {
+        const { color = Color3.White(), intensity = 1, radius = 0.1 } = optionsOf('SphereLight', options, ['color', 'intensity', 'radius']);
+        super(name, scene); // which adds it to the scene
         Object.assign(this, { color, intensity, radius });
     }
     get radiance() {
@@ -34,7 +36,7 @@ function gather(scene, spheres) {
     for (const node of scene.transformNodes)
         if (node instanceof SphereLight && node.isEnabled()) {
             node.computeWorldMatrix(true);
-            spheres.add(node.name, node.getAbsolutePosition().asArray(), node.radius, node.color.asArray(), node.radiance);
+            spheres.add(node, node.getAbsolutePosition().asArray(), node.color.asArray());
         }
 }
 
@@ -82,7 +84,7 @@ class LightPlugin extends MaterialPluginBase {
 const materialsOf = ({ materials }) => materials.filter(({ metadata }) => metadata?.lampion !== false);
 
 // Patches of PBR materials by plugins: arguments of LightPlugin.
-const plugins = (define, options) => new Patches((material) => material instanceof PBRBaseMaterial, (material) => {
+const plugins = (define, options) => new Patches('PBRMaterial', (material) => material instanceof PBRBaseMaterial, (material) => {
     const plugin = new LightPlugin(material, define, options);
     return () => plugin.turnOff();
 });
@@ -94,7 +96,8 @@ const floatTexture = ({ data, width, height }, scene) =>
 // frame, the first one, too: Babylon takes no plugin for a material that it has drawn. Materials whose metadata.lampion is
 // false are left alone.
 export class SphereLights {
-    constructor(lmp, scene, { bands = 10 } = {}) {
+    constructor(lmp, scene, options = {}) {
+        const { bands = 10 } = optionsOf('SphereLights', options, ['bands']);
         checkBands(bands);
         Object.assign(this, { lmp, scene, spheres: new Spheres(lmp), texels: new SphereTexels(), table: floatTexture(tableTexels(lmp), scene) });
         this.patches = plugins(['LAMPION_BANDS', bands], {
@@ -130,7 +133,11 @@ export class SphereLights {
 //
 // min, max: corners of the box, Vector3; size: probes along x, y, z. Materials that add() or addScene() is given receive it.
 export class LightProbeVolume {
-    constructor(lmp, scene, { min, max, size }) {
+    constructor(lmp, scene, options) {
+        const { min, max, size } = optionsOf('LightProbeVolume', options, ['min', 'max', 'size']);
+        for (const [name, corner] of Object.entries({ min, max }))
+            if (!(corner instanceof Vector3))
+                throw new TypeError(`LightProbeVolume: ${name} is ${corner}, not a Vector3`);
         Object.assign(this, { scene, spheres: new Spheres(lmp), grid: new ProbeGrid(lmp, { min: min.asArray(), max: max.asArray(), size }) });
         const vectors = { Min: min.clone(), Extent: Vector3.FromArray(this.grid.extent), Size: Vector3.FromArray(size) };
         this.texture = new RawTexture3D(this.grid.halves, size[0], size[1], SLABS * size[2], Constants.TEXTUREFORMAT_RGBA, scene, false, false,

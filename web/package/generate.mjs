@@ -256,7 +256,9 @@ ${records[name].members.map(({ name: one, type }) => `    ${one}: ${scriptType(t
 const simple = new Set([...Object.keys(arrays), ...hidden]);
 const handles = [...new Set(callable.flatMap(({ parameters }) => parameters.map(({ type }) => type.to?.to ?? type.to).filter(opaque)))];
 const written = handles.map((name) => `export interface ${title(name)} { readonly kind: '${name}'; [Symbol.dispose](): void }`);
-writeFileSync(`${out}/api.d.ts`, `// Made from Lampion's headers by generate.mjs.
+writeFileSync(`${out}/api.d.ts`, `// Made from Lampion's headers, whose comments these are. The documents, headers and sources that they name are in Lampion's
+// source archive; the paper is P. Mézières and M. Paulin, Projection efficace de lumières sphériques sur les harmoniques
+// sphériques, JFIG 2020.
 import type { Structs } from './index.js';
 
 declare global {
@@ -277,6 +279,11 @@ ${members.map(({ name: one, type, comment: why }) => `${comment(why, '    ')}   
 }`).join('\n\n')}
 
 ${declared.join('\n\n')}
+
+/** Structs by name, for structs(). */
+export interface StructTypes {
+${shown.filter(([name]) => !simple.has(name)).map(([name]) => `    ${name}: ${title(name)};`).join('\n')}
+}
 
 export interface Constants {
 ${Object.keys(constants).map((name) => `${comment(comments[name], '    ')}    readonly ${name}: number;`).join('\n')}

@@ -4,6 +4,7 @@
 import { lights, volume } from './expanded.js';
 
 const ROW = 512; // lights in a row of the texture, 2 texels each
+const ROWS = 2048; // which every WebGL 2 has
 const TABLE_WIDTH = 32;
 
 // Texels of spheres for a texture of floats: center and radius, then radiance.
@@ -13,6 +14,8 @@ export class SphereTexels {
     // Returns whether there is now another array, of another height, for which a texture must be made.
     write({ count, center, radius, radiance }) {
         const height = Math.max(Math.ceil(count / ROW), 1), grown = height !== this.height;
+        if (height > ROWS)
+            throw new RangeError(`SphereLights: there are ${count} lights, more than ${ROW * ROWS}`);
         if (grown)
             Object.assign(this, { height, data: new Float32Array(8 * ROW * height) });
         const { data } = this;

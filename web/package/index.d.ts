@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import type { Brdf, Constants, Functions, Rgb } from './api.js';
+import type { Brdf, Constants, Functions, Rgb, StructTypes } from './api.js';
 
 export * from './api.js';
 
@@ -23,7 +23,7 @@ export interface Structs<T> {
     get(i: number): T;
     /** Sets the members given; the others stay as they are. */
     set(i: number, value: T): void;
-    /** A member of all elements: numbers as { at, stride }, vectors as { x, y, z, stride }, stride in bytes. */
+    /** A member of all elements, a float or a vector: numbers as { at, stride }, vectors as { x, y, z, stride }, stride in bytes. */
     array(member: keyof T & string): { at: Float32Array, stride: number } & { x: Float32Array, y: Float32Array, z: Float32Array, stride: number };
     free(): void;
 }
@@ -48,7 +48,7 @@ export interface Lampion extends Constants, Functions {
     SH_INDEX(l: number, m: number): number;
     SH_ROTATION_COUNT(bands: number): number;
     /** `count` structs of zeros, such as structs('light', 100). */
-    structs(type: string, count: number): Structs<any>;
+    structs<K extends keyof StructTypes>(type: K, count: number): Structs<StructTypes[K]>;
     free(array: ArrayBufferView | Structs<any>): void;
 }
 

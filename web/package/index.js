@@ -3,6 +3,7 @@
 // headers without the prefix lmp_. README.md tells how arguments are passed.
 import { constants, structs } from './api.js';
 import { Caller, LampionError, Structs } from './call.js';
+import { optionsOf } from './options.js';
 
 export { LampionError };
 
@@ -38,16 +39,6 @@ async function compile(source, simd) {
     if (!response.ok)
         throw new Error(`${url}: ${response.status} ${response.statusText}`);
     return WebAssembly.compile(await response.arrayBuffer());
-}
-
-// Returns options, of which there are no others than those named.
-function optionsOf(name, given, names) {
-    if (given === null || typeof given !== 'object')
-        throw new TypeError(`${name} takes options, such as { ${names[0]} }, not ${given}`);
-    for (const option of Object.keys(given))
-        if (!names.includes(option))
-            throw new TypeError(`${name}: there is no option ${option}`);
-    return given;
 }
 
 export async function compileLampion(options = {}) {

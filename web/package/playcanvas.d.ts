@@ -8,6 +8,7 @@ export class SphereLight extends Entity {
     /** Linear. */
     color: Color;
     intensity: number;
+    /** Above 0; 0.01 stands for a point. */
     radius: number;
     /** Of its surface, candela per square meter. */
     radiance: number;
@@ -25,7 +26,9 @@ export class SphereLights {
 /** A grid of probes in a box, relit by update(): diffuse light of many lights, at one cost per pixel. */
 export class LightProbeVolume {
     constructor(lmp: Lampion, app: AppBase, options: { min: Vec3, max: Vec3, size: [number, number, number] });
+    /** material: a StandardMaterial whose useMetalness is set; others throw. */
     add<T extends Material>(material: T): T;
+    /** Adds those of its materials that can be lit. */
     addScene(app: AppBase): void;
     /** Lights the probes by the SphereLights of the scene. */
     update(): void;

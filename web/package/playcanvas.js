@@ -3,9 +3,10 @@
 // (LightProbeVolume). WebGL 2.
 import {
     ADDRESS_CLAMP_TO_EDGE, Color, Entity, FILTER_LINEAR, FILTER_NEAREST, PIXELFORMAT_RGBA16F, PIXELFORMAT_RGBA32F, SHADERLANGUAGE_GLSL, ShaderChunks,
-    StandardMaterial, Texture,
+    StandardMaterial, Texture, Vec3,
 } from 'playcanvas';
 import { SphereTexels, checkBands, lightsGlsl, tableTexels, volumeGlsl } from './glsl.js';
+import { optionsOf } from './options.js';
 import { Patches } from './patches.js';
 import { ProbeGrid, SLABS } from './probes.js';
 import { Spheres, radianceOf } from './spheres.js';
@@ -13,7 +14,8 @@ import { Spheres, radianceOf } from './spheres.js';
 // A glowing sphere. Its intensity is that of a point light, in candela, whatever its radius: it keeps its light as it
 // grows. The color is linear.
 export class SphereLight extends Entity {
-    constructor(name, { color = new Color(1, 1, 1), intensity = 1, radius = 0.1 } = {}) {
+    constructor(name, options = {}) {
+        const { color = new Color(1, 1, 1), intensity = 1, radius = 0.1 } = optionsOf('SphereLight', options, ['color', 'intensity', 'radius']);
         super(name);
         Object.assign(this, { color, intensity, radius });
     }
@@ -29,7 +31,7 @@ function gather(app, spheres) {
     spheres.clear();
     for (const node of app.root.find((one) => one instanceof SphereLight && one.enabled)) {
         const { x, y, z } = node.getPosition(), { r, g, b } = node.color;
-        spheres.add(node.name, [x, y, z], node.radius, [r, g, b], node.radiance);
+        spheres.add(node, [x, y, z], [r, g, b]);
     }
 }
 
@@ -56,6 +58,7 @@ function extend(device, material, changes, light) {
 }
 
 // Only materials of a metalness are glTF's.
+const METALLIC = 'StandardMaterial whose useMetalness is set';
 const isMetallic = (material) => material instanceof StandardMaterial && material.useMetalness;
 
 const floatTexture = (device, { data, width, height }) => new Texture(device, {
@@ -66,7 +69,8 @@ const floatTexture = (device, { data, width, height }) => new Texture(device, {
 // Lights the standard materials of an application's scene by its SphereLights, those whose useMetalness is set. Call
 // update() before every frame. Materials whose `lampion` is false are left alone.
 export class SphereLights {
-    constructor(lmp, app, { bands = 10 } = {}) {
+    constructor(lmp, app, options = {}) {
+        const { bands = 10 } = optionsOf('SphereLights', options, ['bands']);
         checkBands(bands);
         const device = app.graphicsDevice;
         Object.assign(this, { app, spheres: new Spheres(lmp), texels: new SphereTexels(), table: floatTexture(device, tableTexels(lmp)) });
@@ -75,7 +79,7 @@ export class SphereLights {
             debugProcessFrontendPS: (code) => `lampionColor = litArgs_albedo; // which PlayCanvas multiplies by 1 - metalness\n${code}`,
         };
         const light = 'lampionLight(vPositionW, litArgs_worldNormal, dViewDirW, lampionColor, litArgs_metalness, 1.0 - litArgs_gloss)';
-        this.patches = new Patches(isMetallic, (material) => extend(device, material, changes, light));
+        this.patches = new Patches(METALLIC, isMetallic, (material) => extend(device, material, changes, light));
         this.update();
     }
     // Reads the lights of the scene, and lights materials that are new in it.
@@ -107,7 +111,11 @@ export class SphereLights {
 //
 // min, max: corners of the box, Vec3; size: probes along x, y, z. Materials that add() or addScene() is given receive it.
 export class LightProbeVolume {
-    constructor(lmp, app, { min, max, size }) {
+    constructor(lmp, app, options) {
+        const { min, max, size } = optionsOf('LightProbeVolume', options, ['min', 'max', 'size']);
+        for (const [name, corner] of Object.entries({ min, max }))
+            if (!(corner instanceof Vec3))
+                throw new TypeError(`LightProbeVolume: ${name} is ${corner}, not a Vec3`);
         const corners = { min: [min.x, min.y, min.z], max: [max.x, max.y, max.z] };
         Object.assign(this, { app, spheres: new Spheres(lmp), grid: new ProbeGrid(lmp, { ...corners, size }) });
         this.texture = new Texture(app.graphicsDevice, {
@@ -118,7 +126,7 @@ export class LightProbeVolume {
         const parameters = { '': this.texture, Min: corners.min, Extent: this.grid.extent, Size: size };
         const changes = { litUserDeclarationPS: (code) => `${code}\n${volumeGlsl}` };
         const light = 'litArgs_albedo * lampionVolumeIrradiance(vPositionW, litArgs_worldNormal) / 3.14159265';
-        this.patches = new Patches(isMetallic, (material) => {
+        this.patches = new Patches(METALLIC, isMetallic, (material) => {
             Object.entries(parameters).forEach(([name, value]) => material.setParameter(`lampionVolume${name}`, value));
             return extend(app.graphicsDevice, material, changes, light);
         });

@@ -3,13 +3,16 @@
 //
 // A probe holds its irradiance as lmp_probe_constants, SLABS vectors of four, which probe.glsl evaluates. The texture has
 // size[0] by size[1] texels in SLABS * size[2] layers: those of the first vector, then those of the second, and so on.
+import { optionsOf } from './options.js';
+
 export const SLABS = 7;
 
 export class ProbeGrid {
     // min, max: corners of the box, whose corners have probes; size: probes along x, y, z, two at least each.
-    constructor(lmp, { min, max, size }) {
+    constructor(lmp, options) {
+        const { min, max, size } = optionsOf('ProbeGrid', options, ['min', 'max', 'size']);
         if (!(size?.length === 3 && size.every((n) => Number.isInteger(n) && n >= 2) && SLABS * size[2] <= 2048))
-            throw new RangeError(`ProbeGrid: size is ${size}, not three counts from 2 on, the third at most 292`);
+            throw new RangeError(`ProbeGrid: size is ${JSON.stringify(size)}, not three counts from 2 on, the third at most 292`);
         const extent = max.map((high, axis) => high - min[axis]), count = size[0] * size[1] * size[2];
         if (!extent.every((length) => length > 0 && Number.isFinite(length)))
             throw new RangeError('ProbeGrid: the box is empty or infinite');

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // spheres.js - spheres as arrays in Lampion's memory, which grow.
+import { said, titleOf } from './options.js';
 
 // Returns the radiance of a sphere of an intensity: of a distant point, in candela, and independent of the radius.
 export const radianceOf = (intensity, radius) => intensity / (Math.PI * radius ** 2);
@@ -30,11 +31,18 @@ export class Spheres {
             throw new Error('this was disposed of');
         this.count = 0;
     }
-    // Adds a sphere behind those there are.
-    add(name, position, radius, color, radiance) {
-        if (!(radius > 0))
-            throw new RangeError(`the radius of the SphereLight "${name}" is ${radius}, not above 0`);
-        const i = this.count++;
+    // Adds an engine's SphereLight behind those there are.
+    add(light, position, color) {
+        const { radius, intensity } = light, refuse = (what) => { throw new RangeError(`${titleOf(light)}: ${what}`); };
+        if (!(Number.isFinite(radius) && radius > 0))
+            refuse(`its radius is ${said(radius)}, not above 0; 0.01 stands for a point`);
+        if (!Number.isFinite(intensity))
+            refuse(`its intensity is ${said(intensity)}, not a number`);
+        if (!position.every(Number.isFinite))
+            refuse(`its position is ${position}`);
+        if (!color.every(Number.isFinite))
+            refuse(`its color is ${color}`);
+        const i = this.count++, radiance = radianceOf(intensity, radius);
         this.reserve(this.count);
         this.center.set(position, 3 * i);
         this.radius[i] = radius;

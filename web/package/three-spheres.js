@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // three-spheres.js - three's SphereLight, and those of a scene as arrays in Lampion's memory.
 import { Color, Object3D, Vector3 } from 'three';
+import { titleOf } from './options.js';
 import { radianceOf } from './spheres.js';
 
 const world = new Vector3();
@@ -9,6 +10,8 @@ const world = new Vector3();
 // grows. `radiance` is that of its surface.
 export class SphereLight extends Object3D {
     constructor(color = 0xffffff, intensity = 1, radius = 0.1) {
+        if (typeof color === 'object' && !color?.isColor)
+            throw new TypeError('SphereLight takes a color, an intensity and a radius, not an object');
         super();
         this.isSphereLight = true;
         this.type = 'SphereLight';
@@ -32,16 +35,29 @@ export class SphereLight extends Object3D {
         this.color.copy(source.color);
         return Object.assign(this, { intensity: source.intensity, radius: source.radius });
     }
+    toJSON(meta) {
+        const data = super.toJSON(meta), { color, intensity, radius } = this;
+        Object.assign(data.object, { color: color.getHex(), intensity, radius });
+        return data;
+    }
 }
 
 // Returns the visible sphere lights of a scene as arrays in Lampion's memory, which `spheres` keeps.
 export function gather(scene, spheres) {
     spheres.clear();
+    scene.updateMatrixWorld();
     scene.traverseVisible((light) => {
         if (light.isSphereLight)
-            spheres.add(light.name, world.setFromMatrixPosition(light.matrixWorld).toArray(), light.radius, light.color.toArray(), light.radiance);
+            spheres.add(light, world.setFromMatrixPosition(light.matrixWorld).toArray(), light.color.toArray());
     });
     return spheres;
+}
+
+// Returns a scene, or says what else it is.
+export function sceneOf(owner, scene) {
+    if (!scene?.isObject3D)
+        throw new TypeError(`${owner}: ${titleOf(scene)} is not a scene`);
+    return scene;
 }
 
 // Returns all materials of a scene whose userData.lampion is not false.

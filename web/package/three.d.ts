@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-import type { Box3, Color, ColorRepresentation, LightProbe, Material, Object3D, Quaternion } from 'three';
+import type { Box3, Color, ColorRepresentation, LightProbe, MeshStandardMaterial, Object3D, Quaternion } from 'three';
 import type { Lampion } from './index.js';
 
-/** A glowing sphere. Its intensity is that of a PointLight, in candela, whatever its radius. */
+/** A glowing sphere. Its intensity is that of a PointLight, in candela, whatever its radius. Its scale does not matter. */
 export class SphereLight extends Object3D {
     constructor(color?: ColorRepresentation, intensity?: number, radius?: number);
     readonly isSphereLight: true;
     color: Color;
     intensity: number;
+    /** Above 0; 0.01 stands for a point. */
     radius: number;
     /** Of its surface, candela per square meter. */
     radiance: number;
@@ -15,7 +16,7 @@ export class SphereLight extends Object3D {
     power: number;
 }
 
-/** Lights the MeshStandardMaterials of a scene by its SphereLights. */
+/** Lights the MeshStandardMaterials and MeshPhysicalMaterials of a scene by its SphereLights. */
 export class SphereLights {
     /** bands: of highlights, 1 to 32; 10. Materials whose userData.lampion is false are left alone. */
     constructor(lmp: Lampion, scene: Object3D, options?: { bands?: number });
@@ -27,7 +28,9 @@ export class SphereLights {
 /** A grid of probes in a box, relit by update(): diffuse light of many lights, at one cost per pixel. */
 export class LightProbeVolume {
     constructor(lmp: Lampion, box: Box3, size: [number, number, number], options?: { worker?: Worker });
-    add<T extends Material>(material: T): T;
+    /** material: a MeshStandardMaterial or a MeshPhysicalMaterial; others throw. */
+    add<T extends MeshStandardMaterial>(material: T): T;
+    /** Adds those of a scene's materials that can be lit. */
     addScene(scene: Object3D): void;
     /** Lights the probes by the SphereLights of a scene; with a worker of lampion/worker, as soon as it is done. */
     update(scene: Object3D): void;

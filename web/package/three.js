@@ -5,10 +5,11 @@ import {
     Data3DTexture, DataTexture, FloatType, HalfFloatType, LightProbe, LinearFilter, RGBAFormat, Vector3,
 } from 'three';
 import { SphereTexels, checkBands, lightsGlsl, tableTexels, volumeGlsl } from './glsl.js';
+import { optionsOf, titleOf } from './options.js';
 import { Patches } from './patches.js';
 import { ProbeGrid, SLABS } from './probes.js';
 import { Spheres } from './spheres.js';
-import { SphereLight, gather, materialsOf } from './three-spheres.js';
+import { SphereLight, gather, materialsOf, sceneOf } from './three-spheres.js';
 
 export { SphereLight };
 
@@ -29,7 +30,7 @@ function extend(material, key, uniforms, change) {
     };
 }
 
-const isStandard = ({ isMeshStandardMaterial }) => isMeshStandardMaterial === true;
+const standard = (patch) => new Patches('MeshStandardMaterial or a MeshPhysicalMaterial', (material) => material?.isMeshStandardMaterial === true, patch);
 
 function floatTexture({ data, width, height }) {
     const texture = new DataTexture(data, width, height, RGBAFormat, FloatType);
@@ -45,22 +46,22 @@ const WORLD = `
 //
 // bands: of highlights, 1 to 32: more for smoother surfaces. Materials whose userData.lampion is false are left alone.
 export class SphereLights {
-    constructor(lmp, scene, { bands = 10 } = {}) {
+    constructor(lmp, scene, options = {}) {
+        const { bands = 10 } = optionsOf('SphereLights', options, ['bands']);
         checkBands(bands);
-        Object.assign(this, { lmp, scene, spheres: new Spheres(lmp), texels: new SphereTexels() });
+        Object.assign(this, { lmp, spheres: new Spheres(lmp), scene: sceneOf('SphereLights', scene), texels: new SphereTexels() });
         this.uniforms = { lampionLights: { value: null }, lampionCount: { value: 0 }, lampionTexels: { value: floatTexture(tableTexels(lmp)) } };
         const head = `${WORLD.replaceAll('lampion', 'lampionLight')}${lightsGlsl(bands)}
             void main() {`;
         const body = `#include <lights_fragment_end>
             reflectedLight.directSpecular += lampionLight(lampionLightWorldPosition(geometryPosition),
                 lampionLightToWorld(geometryNormal), lampionLightToWorld(geometryViewDir), diffuseColor.rgb, metalnessFactor, roughnessFactor);`;
-        this.patches = new Patches(isStandard, (material) => extend(material, `lampion ${bands}`, this.uniforms, (shader) =>
+        this.patches = standard((material) => extend(material, `lampion ${bands}`, this.uniforms, (shader) =>
             shader.replace('void main() {', () => head).replace('#include <lights_fragment_end>', () => body)));
         this.update();
     }
     // Reads the lights of the scene, and lights materials that are new in it.
     update() {
-        this.scene.updateMatrixWorld();
         const { scene, spheres, texels, uniforms } = this;
         gather(scene, spheres);
         this.patches.addAll(materialsOf(scene));
@@ -85,12 +86,17 @@ export class SphereLights {
 // addScene() is given, receive it. worker: a Worker of lampion/worker, which then lights the probes; they follow as soon
 // as it is done, and update() returns at once.
 export class LightProbeVolume {
-    constructor(lmp, box, size, { worker } = {}) {
-        const options = { min: box.min.toArray(), max: box.max.toArray(), size };
-        Object.assign(this, { spheres: new Spheres(lmp), grid: new ProbeGrid(lmp, options), worker });
+    constructor(lmp, box, size, options = {}) {
+        const { worker } = optionsOf('LightProbeVolume', options, ['worker']), spheres = new Spheres(lmp);
+        if (!box?.isBox3)
+            throw new TypeError(`LightProbeVolume: ${titleOf(box)} is not a Box3`);
+        if (worker !== undefined && typeof worker?.postMessage !== 'function')
+            throw new TypeError(`LightProbeVolume: worker is ${worker}, not a Worker`);
+        const grid = { min: box.min.toArray(), max: box.max.toArray(), size };
+        Object.assign(this, { spheres, grid: new ProbeGrid(lmp, grid), worker });
         const { halves, extent } = this.grid;
         if (worker) {
-            worker.postMessage({ grid: options });
+            worker.postMessage({ grid });
             worker.onmessage = ({ data }) => this.receive(data);
             worker.onerror = ({ message }) => {
                 throw new Error(`LightProbeVolume: ${message ?? 'its worker could not be loaded'}`);
@@ -112,7 +118,7 @@ export class LightProbeVolume {
                 irradiance += lampionVolumeIrradiance(lampionVolumeWorldPosition(geometryPosition), lampionVolumeToWorld(geometryNormal));
             #endif
             #include <lights_fragment_maps>`;
-        return new Patches(isStandard, (material) => extend(material, 'lampion volume', this.uniforms, (shader) =>
+        return standard((material) => extend(material, 'lampion volume', this.uniforms, (shader) =>
             shader.replace('void main() {', () => head).replace('#include <lights_fragment_maps>', () => body)));
     }
     add(material) {
@@ -125,8 +131,7 @@ export class LightProbeVolume {
     update(scene) {
         if (!scene)
             throw new TypeError('LightProbeVolume: update takes the scene whose lamps light the probes');
-        scene.updateMatrixWorld();
-        const { count, center, radius, radiance } = gather(scene, this.spheres);
+        const { count, center, radius, radiance } = gather(sceneOf('LightProbeVolume', scene), this.spheres);
         if (!this.worker) {
             this.grid.light(this.spheres.arrays, count);
             this.uniforms.lampionVolume.value.needsUpdate = true;
@@ -154,10 +159,8 @@ export class LightProbeVolume {
 // Lights a LightProbe by the SphereLights of a scene, as they are seen from its position. three's basis lacks the
 // Condon-Shortley sign: odd m, the odd indices of three bands, change theirs. Both are of radiance.
 export function lightProbe(lmp, scene, light = new LightProbe()) {
-    const spheres = new Spheres(lmp), sh = new Float32Array(27);
-    scene.updateMatrixWorld();
+    const spheres = new Spheres(lmp), sh = new Float32Array(27), { arrays, count } = gather(sceneOf('lightProbe', scene), spheres);
     light.updateMatrixWorld();
-    const { arrays, count } = gather(scene, spheres);
     lmp.sphere_sum_n(3, arrays, count, null, new Float32Array(new Vector3().setFromMatrixPosition(light.matrixWorld).toArray()), 1, sh);
     spheres.free();
     for (let i = 0; i < 9; i++)
@@ -176,10 +179,12 @@ export class SplatLights {
     //
     // positions, albedo and f_dc: three numbers per splat. normals: of splats that lie on surfaces, which then reflect
     // diffusely; without them, a splat scatters the light from everywhere alike.
-    light(scene, { positions, normals, albedo }, f_dc) {
-        const { lmp } = this, n = positions.length / 3, rgb = lmp.floats(3 * n);
-        scene.updateMatrixWorld();
-        const { arrays, count } = gather(scene, this.spheres);
+    light(scene, splats, f_dc) {
+        const { positions, normals, albedo } = optionsOf('SplatLights', splats, ['positions', 'normals', 'albedo']), { lmp } = this;
+        for (const [name, array] of Object.entries({ positions, albedo, f_dc, ...normals && { normals } }))
+            if (!(array instanceof Float32Array && array.length === positions.length && array.length % 3 === 0))
+                throw new RangeError(`SplatLights: ${name} is not a Float32Array of three numbers per splat`);
+        const n = positions.length / 3, { arrays, count } = gather(sceneOf('SplatLights', scene), this.spheres), rgb = lmp.floats(3 * n);
         if (normals) {
             const lights = Array.from({ length: count }, (none, i) => ({
                 position: arrays.center.subarray(3 * i, 3 * i + 3), radius: arrays.radius[i], radiance: arrays.radiance.subarray(3 * i, 3 * i + 3),
@@ -199,6 +204,10 @@ export class SplatLights {
     // of red, then green, then blue. Viewers that leave this out leave the highlights behind.
     rotate(quaternion, bands, f_rest) {
         const { lmp } = this, rest = bands * bands - 1, n = f_rest.length / (3 * rest);
+        if (!quaternion?.isQuaternion)
+            throw new TypeError(`SplatLights: ${titleOf(quaternion)} is not a Quaternion`);
+        if (!(Number.isInteger(bands) && bands >= 2))
+            throw new RangeError(`SplatLights: bands is ${bands}, not 2 or more`);
         if (!Number.isInteger(n))
             throw new RangeError(`SplatLights: f_rest has ${f_rest.length} values, no multiple of ${3 * rest}`);
         const matrices = new Float32Array((4 * bands * bands - 1) * bands / 3);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Lampion in three.js' WebGPURenderer: sphere lights and grids of probes for MeshStandardNodeMaterial.
+// Lampion in three.js' WebGPURenderer: sphere lights and grids of probes for standard materials, of nodes or not.
 import { StorageBufferAttribute } from 'three/webgpu';
 import {
-    cameraPosition, code, diffuseColor, dot, materialEmissive, materialRoughness, max, metalness, normalWorld, positionWorld, storage, texture3D, uniform,
+    Fn, cameraPosition, code, diffuseColor, dot, materialEmissive, materialRoughness, max, metalness, normalWorld, positionWorld, storage, texture3D, uniform,
     vec3, vec4, wgslFn,
 } from 'three/tsl';
+import { checkBands } from './glsl.js';
+import { optionsOf } from './options.js';
 import { Patches } from './patches.js';
 import { SLABS } from './probes.js';
 import { Spheres } from './spheres.js';
 import { LightProbeVolume as Volume } from './three.js';
-import { gather, materialsOf } from './three-spheres.js';
+import { gather, materialsOf, sceneOf } from './three-spheres.js';
 import { lampionWgsl } from './wgsl.js';
 
 // three declares a buffer only where a node reads it: the functions below are given an element of each.
@@ -23,33 +25,41 @@ fn lampionShade(position: vec3f, normal: vec3f, view: vec3f, color: vec3f, metal
     return lmp_shade_zonal_metallic_roughness(lmp_surface(position, normal, view), lmp_metallic_roughness(color, metallic, roughness));
 }`;
 
-// Adds light to what a node material emits.
-const emitting = (light) => new Patches(({ isMeshStandardNodeMaterial }) => isMeshStandardNodeMaterial === true, (material) => {
-    const before = material.emissiveNode;
+// Adds light to what a material emits. WebGPURenderer makes a node material of one that is none, with all its members, and
+// so with its emissiveNode.
+const isStandard = (material) => material?.isMeshStandardNodeMaterial === true || material?.isMeshStandardMaterial === true;
+const emitting = (light) => new Patches('MeshStandardMaterial, a MeshPhysicalMaterial or the node material of one', isStandard, (material) => {
+    const before = material.emissiveNode ?? null;
     Object.assign(material, { emissiveNode: (before ?? materialEmissive).add(light(material)), needsUpdate: true });
     return () => Object.assign(material, { emissiveNode: before, needsUpdate: true });
 });
 
-// Lights the node materials of a scene by its SphereLights. Call update() before every frame.
+// Lights the standard materials of a scene by its SphereLights. Call update() before every frame.
 //
 // bands: of highlights, 1 to 32; most: the most lights. Materials whose userData.lampion is false are left alone.
 export class SphereLights {
-    constructor(lmp, scene, { bands = 10, most = 256 } = {}) {
+    constructor(lmp, scene, options = {}) {
+        const { bands = 10, most = 256 } = optionsOf('SphereLights', options, ['bands', 'most']), spheres = new Spheres(lmp);
+        checkBands(bands);
+        if (!(Number.isInteger(most) && most >= 1))
+            throw new RangeError(`SphereLights: most is ${most}, not a number of lights`);
         const table = new Float32Array(4 * lmp.GGX_TEXELS), size = 2 * most + 1;
         lmp.lobe_copy_ggx_texels(table);
-        Object.assign(this, { scene, most, spheres: new Spheres(lmp), attribute: new StorageBufferAttribute(new Float32Array(4 * size), 4) });
+        Object.assign(this, { scene: sceneOf('SphereLights', scene), most, spheres, attribute: new StorageBufferAttribute(new Float32Array(4 * size), 4) });
         const lights = storage(this.attribute, 'vec4', size).toReadOnly().setName('lampionLights');
         const texels = storage(new StorageBufferAttribute(table, 4), 'vec4', lmp.GGX_TEXELS).toReadOnly().setName('lampionTable');
         const shade = wgslFn(SHADE, [code(lampionWgsl({ bands, window: 'hanning', ggx: true }) + HOOKS, [], 'wgsl')]);
         const view = cameraPosition.sub(positionWorld).normalize();
-        this.patches = emitting(({ roughnessNode }) => shade(positionWorld, normalWorld, view, diffuseColor.rgb, metalness,
-            roughnessNode ?? materialRoughness, lights.element(0), texels.element(0)));
+        this.patches = emitting(({ roughnessNode }) => Fn(({ renderer }) => {
+            if (!renderer.backend.isWebGPUBackend)
+                throw new Error('SphereLights of lampion/three-webgpu need WebGPU, and this renderer fell back to WebGL 2: take WebGLRenderer and lampion/three');
+            return shade(positionWorld, normalWorld, view, diffuseColor.rgb, metalness, roughnessNode ?? materialRoughness, lights.element(0), texels.element(0));
+        })());
         this.update();
     }
-    // Reads the lights of the scene, and lights node materials that are new in it.
+    // Reads the lights of the scene, and lights materials that are new in it.
     update() {
         const { attribute, most, scene } = this, { array } = attribute;
-        scene.updateMatrixWorld();
         const { count, center, radius, radiance } = gather(scene, this.spheres);
         if (count > most)
             throw new RangeError(`SphereLights: there are ${count} lights, and most is ${most}`);
@@ -68,7 +78,7 @@ export class SphereLights {
     }
 }
 
-// The volume of lampion/three, for node materials.
+// The volume of lampion/three, for WebGPURenderer.
 export class LightProbeVolume extends Volume {
     makePatches([width, height, depth]) {
         const { lampionVolume, lampionVolumeMin, lampionVolumeExtent } = this.uniforms;
