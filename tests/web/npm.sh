@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # The npm package: the same bytes from the same commit, structs where C has them, every function in node (npm.mjs), wrong
-# arguments (npm_faults.mjs), types that agree with the code, and three.js, Babylon.js and PlayCanvas in a headless browser
-# against `lampion render` of the scenes that pages of three export. It needs Emscripten, npm, node and Chromium, and the
-# engines, which the examples' package-lock.json name, from npm's registry or its cache.
+# arguments (npm_faults.mjs, npm_fuzz.mjs), types that agree with the code, and three.js, Babylon.js and PlayCanvas in a
+# headless browser against `lampion render` of the scenes that pages of three export. It needs Emscripten, npm, node and
+# Chromium, and the engines, which the examples' package-lock.json name, from npm's registry or its cache.
 set -eu
 . tests/checks/common.sh
 export ASAN_OPTIONS=detect_leaks=0 # GL drivers leak at exit
@@ -62,7 +62,7 @@ for engine in babylon playcanvas; do
 done
 enter three
 page=$WORK/examples/three
-for script in npm npm_faults; do
+for script in npm npm_faults npm_fuzz; do
     cp "$SOURCE/tests/web/$script.mjs" .
     node $script.mjs >"$WORK/log" 2>&1 || fail "$(tail -c 3000 "$WORK/log")"
 done
@@ -177,6 +177,33 @@ within first 4e-4 || fail "the page of docs/npm.md is not within 2 %: $(cat "$WO
 # Materials of every kind by WebGPU.
 cp "$SOURCE/tests/web/materials.html" "$page"
 node "$SOURCE/tests/web/materials.mjs" "$page" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+
+# section_blocks NAME: the blocks in JavaScript of a section of docs/npm.md.
+section_blocks() {
+    awk -v name="$1" '/^##/ { inside = $0 ~ name "$" } inside' "$SOURCE/docs/npm.md" >section.md
+    code_blocks section.md js
+}
+{
+    cat <<'END'
+import { RectAreaLight, Vector3 } from 'three';
+const light = new RectAreaLight(0xffffff, 5, 0.02, 0.01), printed = [];
+light.position.set(0, 3, 0);
+light.lookAt(0, 0, 0);
+console.log = ({ r, g, b }) => printed.push(`{ r: ${r.toFixed(3)}, g: ${g.toFixed(3)}, b: ${b.toFixed(3)} }`);
+END
+    section_blocks 'The library'
+    section_blocks 'From PointLight and RectAreaLight'
+    cat <<'END'
+const { r: below } = lmp.light_irradiance([panel], 1, [0, 0, 0], [0, 1, 0]), wanted = 5 * 0.02 * 0.01 / 9;
+if (!(Math.abs(below - wanted) <= 1e-4 * wanted))
+    throw new Error(`under the panel: ${below}, not ${wanted}`);
+process.stdout.write(`${printed.join('\n')}\n`);
+END
+} >shown.mjs
+section_blocks 'The library' | sed -n 's|^console.log.*// ||p' >printed
+[ "$(grep -c . printed)" -ge 3 ] || fail "docs/npm.md prints too little"
+node shown.mjs >"$WORK/log" 2>&1 || fail "docs/npm.md: $(cat "$WORK/log")"
+cmp "$WORK/log" printed || fail "docs/npm.md says $(cat printed), and prints $(cat "$WORK/log")"
 
 # A room of lanterns on probes, lit beside the page and within it.
 node "$SOURCE/tests/web/lanterns.mjs" "$page" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"

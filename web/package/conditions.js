@@ -59,7 +59,7 @@ function shading({ settings, material, surfaces, count }) {
     return preintegrated ? some(materials, many, hasLobes) ? 'settings.lobe is missing, which SHADE_PREINTEGRATED reads' : ''
         : some(materials, isMany(materials) && materials.memberAt ? 0 : many, lacksTable) ? 'table is missing, which this method reads' : '';
 }
-const positioned = (args) => args.surfaces.position || args.count === 0 ? shading(args) : 'surfaces.position is missing';
+const positioned = (args) => args.count === 0 ? '' : args.surfaces.position ? shading(args) : 'surfaces.position is missing';
 
 const planes = (sh, count) => (sh?.length ?? 0) > count && sh.length % count === 0;
 const single = ({ bands, sh, rotated }) => planes(sh, bands * bands) && rotated?.length === sh.length
@@ -84,7 +84,7 @@ export const conditions = {
         return all.map((one, i) => index(`at[${i}]`, one, there)).find(Boolean) ?? (new Set(all).size < count ? 'at names a light twice' : noArea('lights')({ ...args, count }));
     },
     field_copy_nodes: ({ field, first, count }, lmp) => part(first, count, nodes(field, lmp)),
-    field_shade_n: ({ surfaces, count }) => surfaces.position || count === 0 ? '' : 'surfaces.position is missing',
+    field_shade_n: ({ surfaces, count }) => count === 0 || surfaces.position ? '' : 'surfaces.position is missing',
     probe_make_positive_window: ({ planes: count }) => count ? '' : 'planes is 0',
     probe_convert: ({ bands, from, to }) => bands > constants.PROBE_AXES_BANDS_MAX && `${from.axes ?? [1, 2, 3]}` !== `${to.axes ?? [1, 2, 3]}`
         ? `bands is ${bands}, and axes that differ take at most ${constants.PROBE_AXES_BANDS_MAX}` : '',

@@ -42,7 +42,7 @@ export const extents = {
     'sh_project_cubemap.sh': ({ bands, map: { channels = 0 } }) => channels * bands * bands,
     'sh_eval_n.sh': each(1), 'sh_eval_gradient_n.sh': each(1), 'sh_eval_gradient_n.gradient': each(3),
     'sh_dot_n.a': paired, 'sh_dot_n.b': paired, 'sh_dot_n.dots': asked,
-    'sh_rotate_n.rotated': each(1), 'sh_rotate_n.sh': (args) => spread(square(args), args.count, args.rotated),
+    'sh_rotate_n.rotated': each(1), 'sh_rotate_n.sh': (args) => spread(square(args), args.count, args.rotated ?? undefined),
     'sh_pack_half_n.values': asked, 'sh_pack_half_n.halves': asked, 'sh_unpack_half_n.values': asked, 'sh_unpack_half_n.halves': asked,
     'sphere_project_zonal_n.radii': asked, 'sphere_project_zonal_n.distances': asked,
     'sphere_project_zonal_n.zonal': ({ bands, count }) => [bands, count],

@@ -30,7 +30,7 @@ export interface Structs<T> {
 
 export interface Lampion extends Constants, Functions {
     readonly memory: WebAssembly.Memory;
-    /** Projects a function (paper Eq. 5); see sh.h for nodes. */
+    /** Projects a function, called at `nodes` heights (0: as many as bands) times 2 * nodes azimuths. */
     sh_project_function(bands: number, nodes: number, f: (direction: [number, number, number]) => number, sh: Float32Array): void;
     sh_project_function_rgb(bands: number, nodes: number, f: (direction: [number, number, number]) => Rgb | ArrayLike<number>, sh: Float32Array): void;
     brdf_encode_merl(brdf: Brdf): Uint8Array;
