@@ -12,7 +12,7 @@ const engines = {
         Object.assign(engine, { createRawTexture3D: () => engine.createRawTexture(null, 1, 1, 5, false, false, 1), updateRawTexture3D() {} }); // which it lacks
         return {
             lampion, place: scene, lamp: new lampion.SphereLight('lamp', scene), make: (options) => new lampion.SphereLight('lamp', scene, options),
-            corners: [Vector3.Zero(), Vector3.One()], dull: new StandardMaterial('dull', scene), shiny: new PBRMaterial('shiny', scene), kind: /cannot be lit, but a PBRMaterial/,
+            corners: [Vector3.Zero(), Vector3.One()], dull: new StandardMaterial('dull', scene), shiny: new PBRMaterial('shiny', scene), kind: /cannot be lit; only a PBRMaterial can/,
         };
     },
     async playcanvas() {
@@ -23,7 +23,7 @@ const engines = {
         app.root.addChild(lamp);
         return {
             lampion, place: app, lamp, make: (options) => new lampion.SphereLight('lamp', options), corners: [new Vec3(), new Vec3(1, 1, 1)],
-            dull: named('dull'), shiny: named('shiny', { useMetalness: true }), kind: /cannot be lit, but a StandardMaterial whose useMetalness is set/,
+            dull: named('dull'), shiny: named('shiny', { useMetalness: true }), kind: /cannot be lit; only a StandardMaterial whose useMetalness is set can/,
         };
     },
 };

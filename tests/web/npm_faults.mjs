@@ -68,6 +68,10 @@ function refuse(wrong) {
         [() => lmp.field_update({}, [], 0), /field is not an lmp_field/],
         [() => lmp.shade(null, { kind: lmp.MATERIAL_TABLE, table: lmp.sh_product_create(2) }, { normal: [0, 0, 1], view: [0, 0, 1] }, [], 0), /table is not an lmp_brdf_table/],
         [() => lmp.structs('lamp', 1), /there is no struct lmp_lamp/],
+        [() => lmp.structs('light', -1), /-1 is not a number of elements/],
+        [() => lmp.structs('light', 1.5), /1.5 is not a number of elements/],
+        [() => lmp.pack_volume(lmp.floats(0), -1, lmp.halves(0)), /pack_volume: -1 is not a number of elements/],
+        [() => lmp.sh_project_function(2, 2 ** 32, () => 1, sh), /nodes not a count/],
         [() => lmp.free(floats(1)), /not of this instance's memory/],
         [() => lmp.free(lmp.floats(2).subarray(1)), /freed, or is a part/],
         [() => lmp.floats(1e9), LampionError],
@@ -308,10 +312,11 @@ await assert.rejects(load({ memory: '64MB' }), RangeError);
         [() => new LightProbeVolume(lmp, box, new three.Vector3(2, 2, 2)), /size is {"x":2,"y":2,"z":2}, not three counts/],
         [() => new LightProbeVolume(lmp, box, [2, 2, 2], { worker: true }), /worker is true, not a Worker/],
         [() => new LightProbeVolume(lmp, box, [2, 2, 2], { workers: 1 }), /no option workers/],
-        [() => volume.add(matte), /MeshLambertMaterial .* cannot be lit, but a MeshStandardMaterial or a MeshPhysicalMaterial/],
+        [() => volume.add(matte), /MeshLambertMaterial .* cannot be lit; only a MeshStandardMaterial or a MeshPhysicalMaterial can/],
         [() => volume.add(ball), /Mesh .* cannot be lit/],
         [() => volume.add(), /undefined cannot be lit/],
         [() => volume.add(ball.material), new RegExp(`MeshStandardMaterial ${ball.material.uuid} is already lit`)],
+        [() => new LightProbeVolume(lmp, box, [80, 80, 80]), LampionError],
         [() => lightProbe(lmp, undefined), /undefined is not a scene/],
         [() => splats.light(scene, placed, floats(3)), /f_dc is not a Float32Array of three numbers per splat/],
         [() => splats.light(scene, { ...placed, albedo: floats(3) }, floats(6)), /albedo is not/],
@@ -321,6 +326,10 @@ await assert.rejects(load({ memory: '64MB' }), RangeError);
         [() => splats.rotate(new three.Quaternion(), 1, floats(24)), /bands is 1, not 2 or more/],
         [() => new SphereTexels().write({ count: 2 ** 20 + 1 }), /1048577 lights, more than 1048576/],
     ]);
+    new LightProbeVolume(lmp, box, [40, 40, 40]).dispose(); // what did not fit took nothing
+    const late = new LightProbeVolume(lmp, box, [2, 2, 2]);
+    late.dispose();
+    late.receive({ halves: new Uint16Array(224) }); // a worker's answer that nobody waits for
     lights.update();
     assert.equal(lights.spheres.radiance[0], before);
     const { object } = lamp.toJSON();

@@ -82,9 +82,12 @@ export async function load(options = {}) {
     c._initialize?.();
     const caller = new Caller(c, memory), { blocks } = caller;
 
-    const numbers = (Kind) => (count) => {
+    const checkCount = (count, owner = '') => {
         if (!(Number.isInteger(count) && count >= 0))
-            throw new RangeError(`${count} is not a number of elements`);
+            throw new RangeError(`${owner}${count} is not a number of elements`);
+    };
+    const numbers = (Kind) => (count) => {
+        checkCount(count);
         const at = c.malloc(count * Kind.BYTES_PER_ELEMENT || 1);
         if (!at)
             throw new LampionError(constants.ERROR_MEMORY, `${count} numbers do not fit into the memory of ${bytes} bytes that load() was given`);
@@ -94,7 +97,7 @@ export async function load(options = {}) {
     const project = (bands, nodes, f, sh, name, planes) => {
         if (typeof f !== 'function')
             throw new TypeError(`${name}: function is not a function`);
-        if (!(Number.isInteger(bands) && bands >= 1 && bands <= constants.BANDS_MAX && Number.isInteger(nodes) && nodes >= 0))
+        if (!(Number.isInteger(bands) && bands >= 1 && bands <= constants.BANDS_MAX && Number.isInteger(nodes) && nodes >= 0 && nodes < 2 ** 31))
             throw new RangeError(`${name}: bands is not 1 to ${constants.BANDS_MAX}, or nodes not a count`);
         if (!(sh instanceof Float32Array && sh.length >= planes * bands * bands))
             throw new RangeError(`${name}: sh is not a Float32Array of ${planes * bands * bands} values`);
@@ -128,7 +131,8 @@ export async function load(options = {}) {
         brdf_encode_merl: encode('brdf_encode_merl'), brdf_encode_rgl: encode('brdf_encode_rgl'),
         // The texels of LightProbeVolume: `count` probes of 3 bands, interleaved, as halves, both in this memory.
         pack_volume(sh, count, halves) {
-            if (!(Number.isInteger(count) && sh.buffer === memory.buffer && sh.length >= 27 * count && halves.buffer === memory.buffer && halves.length >= 28 * count))
+            checkCount(count, 'pack_volume: ');
+            if (!(sh.buffer === memory.buffer && sh.length >= 27 * count && halves.buffer === memory.buffer && halves.length >= 28 * count))
                 throw new RangeError('pack_volume: an array is too short, or not of this instance\'s memory');
             blocks.check(sh, 'pack_volume: sh');
             blocks.check(halves, 'pack_volume: halves');
@@ -141,6 +145,7 @@ export async function load(options = {}) {
         structs(type, count) {
             if (!structs[type])
                 throw new TypeError(`there is no struct lmp_${type}`);
+            checkCount(count);
             return new Structs(caller, type, count);
         },
         free(array) {

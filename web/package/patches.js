@@ -11,7 +11,7 @@ export class Patches {
     }
     add(material) {
         if (!this.is(material))
-            throw new TypeError(`${titleOf(material)} cannot be lit, but a ${this.kinds}`);
+            throw new TypeError(`${titleOf(material)} cannot be lit; only a ${this.kinds} can`);
         if (this.undo.has(material))
             return material;
         if (changed.has(material))

@@ -17,7 +17,14 @@ export class ProbeGrid {
         if (!extent.every((length) => length > 0 && Number.isFinite(length)))
             throw new RangeError('ProbeGrid: the box is empty or infinite');
         Object.assign(this, { lmp, extent, count });
-        Object.assign(this, { points: lmp.floats(3 * count), sh: lmp.floats(27 * count), halves: lmp.halves(4 * SLABS * count) });
+        try {
+            this.points = lmp.floats(3 * count);
+            this.sh = lmp.floats(27 * count);
+            this.halves = lmp.halves(4 * SLABS * count);
+        } catch (error) {
+            this.free(); // what did fit
+            throw error;
+        }
         for (let i = 0; i < count; i++) {
             const at = [i % size[0], Math.floor(i / size[0]) % size[1], Math.floor(i / (size[0] * size[1]))];
             for (let axis = 0; axis < 3; axis++)
@@ -33,8 +40,10 @@ export class ProbeGrid {
         return this.halves;
     }
     free() {
-        if (this.points)
-            [this.points, this.sh, this.halves].forEach((array) => this.lmp.free(array));
-        this.points = undefined;
+        for (const name of ['points', 'sh', 'halves'])
+            if (this[name]) {
+                this.lmp.free(this[name]);
+                this[name] = undefined;
+            }
     }
 }

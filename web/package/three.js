@@ -145,6 +145,8 @@ export class LightProbeVolume {
         this.busy = false;
         if (error)
             throw new Error(`LightProbeVolume: ${error}`);
+        if (!this.grid.halves) // disposed of, while the worker was busy
+            return;
         this.grid.halves.set(halves);
         this.uniforms.lampionVolume.value.needsUpdate = true;
     }
