@@ -23,7 +23,7 @@ export const structConditions = {
             : range('size', size, 1, Infinity) || range('channels', channels, 1, Infinity),
     environment: ({ sh, bands = 0 }) => sh ? range('bands', bands, 1, constants.BANDS_MAX) : 'sh is missing',
     surfaces: ({ material, material_stride = 0 }) => !material ? 'material is missing'
-        : material_stride % structs.material.size ? `material_stride is ${material_stride}, no multiple of ${structs.material.size}` : '',
+        : ![0, structs.material.size].includes(material_stride) ? `material_stride is ${material_stride}, not 0 or ${structs.material.size}` : '',
     sheen_layer: ({ white }) => white && !Array.from(white).every(Boolean) ? 'white lacks a table' : '',
     probe_convention({ axes = [] }) {
         const sorted = Array.from({ length: 3 }, (none, i) => Math.abs(axes[i] ?? 0)).sort().join();
@@ -34,8 +34,7 @@ export const structConditions = {
 // --- functions -----------------------------------------------------------------------------------
 
 // Elements of an argument that is an array, one struct, or Structs.
-const isMany = (value) => Array.isArray(value) || value?.memberAt !== undefined;
-const memberAt = (value, i, member) => value?.memberAt ? value.memberAt(i, member) : (isMany(value) ? value[i] : value)?.[member];
+const memberAt = (value, i, member) => value?.memberAt ? value.memberAt(i, member) : (Array.isArray(value) ? value[i] : value)?.[member];
 const some = (value, count, is) => {
     for (let i = 0; i < count; i++)
         if (is((member) => memberAt(value, i, member)))
@@ -47,17 +46,15 @@ const isArea = (member) => (member('kind') ?? 0) >= constants.LIGHT_RECTANGLE;
 const noArea = (name) => (args) => some(args[name], args.count ?? 1, isArea) ? `${name} ${args.count === undefined ? 'is' : 'has'} an area` : '';
 const anArea = (name) => (args) => isArea((member) => memberAt(args[name], 0, member)) ? '' : `${name} is not an area`;
 
-// Lobes are read from a preintegrated lobe, tables by their coefficients unless there is another one.
+// A method reads lobes from a preintegrated lobe, and others the coefficients of tables. Of Structs, pointers are not known.
 const { SHADE_PREINTEGRATED, MATERIAL_LOBES, MATERIAL_METALLIC_ROUGHNESS, MATERIAL_TABLE } = constants;
 const hasLobes = (member) => [MATERIAL_LOBES, MATERIAL_METALLIC_ROUGHNESS].includes(member('kind') ?? MATERIAL_LOBES) || member('coat')?.weight > 0;
 const lacksTable = (member) => member('kind') === MATERIAL_TABLE && !member('table');
 function shading({ settings, material, surfaces, count }) {
-    const preintegrated = (settings?.memberAt ? settings.memberAt(0, 'method') : settings?.method) === SHADE_PREINTEGRATED;
-    if (preintegrated && (settings.lobe || settings.memberAt))
-        return '';
     const materials = surfaces ? surfaces.material : material, many = surfaces?.material_stride ? count : 1;
-    return preintegrated ? some(materials, many, hasLobes) ? 'settings.lobe is missing, which SHADE_PREINTEGRATED reads' : ''
-        : some(materials, isMany(materials) && materials.memberAt ? 0 : many, lacksTable) ? 'table is missing, which this method reads' : '';
+    if (memberAt(settings, 0, 'method') === SHADE_PREINTEGRATED)
+        return !settings.lobe && !settings.memberAt && some(materials, many, hasLobes) ? 'settings.lobe is missing, which SHADE_PREINTEGRATED reads' : '';
+    return !materials.memberAt && some(materials, many, lacksTable) ? 'table is missing, which this method reads' : '';
 }
 const positioned = (args) => args.count === 0 ? '' : args.surfaces.position ? shading(args) : 'surfaces.position is missing';
 

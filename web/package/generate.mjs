@@ -35,6 +35,9 @@ const separated = new Map(headers.flatMap((text) =>
     [...text.matchAll(/\/\*((?:(?!\*\/)[^])*)\*\/\n(?:#define.*\n)+(?:typedef struct |(?:LMP_EXPERIMENTAL )?LMP_API\s[^;(]*?)\b(lmp_\w+)(?= \{|\()/g)]
         .map(([, comment, name]) => [name, comment.split(/\n \*\n/).map((part) => part.replace(/(^|\n) \* */g, ' ').trim()).join('\n')])));
 
+// Whether the constants of an enumeration are 0, 1, 2 …, as those of flags are not.
+const isCounted = (name) => enums[name].every((one, i) => constants[one] === i);
+
 // A type as call.js reads it: a scalar, the name of an enumeration or a struct, an array { of, count } or a pointer { to, constant }.
 function typeOf(text) {
     text = text.replace(/^(struct|enum) /, '').trim();
@@ -50,7 +53,7 @@ function typeOf(text) {
     if (scalars[text])
         return scalars[text];
     if (text.startsWith('lmp_'))
-        return plain(text); // of an enumeration, too
+        return enums[plain(text)] && !isCounted(plain(text)) ? 'i32' : plain(text);
     throw new Error(`unknown type ${text}`);
 }
 
@@ -169,7 +172,7 @@ ${Object.entries(records).map(([name, { size, members }]) =>
         `    ${name}: { size: ${size}, members: ${code(members.map((member) => [member.name, member.type, member.at, rangeOf(name, member)].filter((one) => one !== undefined)))} },`).join('\n')}
 };
 export const enums = {
-${Object.entries(enums).filter(([, names]) => names.every((name, i) => constants[name] === i)).map(([name, names]) => `    ${name}: ${code(names)},`).join('\n')}
+${Object.entries(enums).filter(([name]) => isCounted(name)).map(([name, names]) => `    ${name}: ${code(names)},`).join('\n')}
 };
 export const functions = {
 ${callable.map((one) => {
