@@ -76,12 +76,20 @@ static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float most, shad
     }
 }
 
+/* Returns how far off a pixel's position its triangle may be: positions are rounded as they are
+ * found from the camera. */
+static float reach_of(const shadow_view *view, lmp_vec3 at) {
+    const float lift = trace_lift_at(view->lift, at, NULL),
+                seen = 1e-5f * vec_length(vec_sub(at, vec_load(view->camera->eye)));
+    return near_lifts * (lift > seen ? lift : seen);
+}
+
 /* Moves the origin off the pixel's position where rounding makes the ray miss the triangle. */
 static void leave_pixel(const shadow_view *view, int lane, shadow_points *p) {
     const lmp_vec3 normal = shadow_lane(&p->normal, lane);
     shadow_set_lane(&p->smooth, lane, normal);
     const lmp_vec3 at = shadow_lane(&p->position, lane),
-                   off = vec_scale(normal, near_lifts * trace_lift_at(view->lift, at, NULL));
+                   off = vec_scale(normal, reach_of(view, at));
     shadow_set_lane(&p->origin, lane, vec_add(at, off));
     shadow_set_lane(&p->behind, lane, vec_sub(at, off));
 }
@@ -91,8 +99,7 @@ static void find_triangles(const shadow_view *view, const shadow_points *p,
                            trace_hit hits[SHADOW_LANES]) {
     trace_rays rays;
     for (int i = 0; i < SHADOW_LANES; i++) {
-        const float before =
-            near_lifts * trace_lift_at(view->lift, shadow_lane(&p->position, i), NULL);
+        const float before = reach_of(view, shadow_lane(&p->position, i));
         rays.start[i] = 0;
         rays.length[i] = p->lit[i] ? 2 * before : -1;
         for (int c = 0; c < 3; c++) {
