@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #define GOLDEN_BALLS  0x4ade70437cf5ede1
-#define GOLDEN_ATRIUM 0xafaebeea167b4551
+#define GOLDEN_ATRIUM 0xfdfc42f217b23c4c
 
 enum { WIDTH = 80, HEIGHT = 45, BANDS = 6 };
 
