@@ -69,7 +69,7 @@ static float lift_of(const reference_tracer *tracer, const corner_weights *c, re
         const float *corner = c->vertices[i].position;
         corners[i] = (lmp_vec3) { corner[0], corner[1], corner[2] };
     }
-    return trace_lift_at(tracer->lift, (lmp_vec3) { (float)at.x, (float)at.y, (float)at.z },
+    return trace_lift_at((float)tracer->lift, (lmp_vec3) { (float)at.x, (float)at.y, (float)at.z },
                          corners);
 }
 

@@ -50,7 +50,7 @@ static lmp_vec3 mix(const shadow_vectors corners[3], const shadow_lanes weights[
  * the quadratic surface with the corners' normals, which is half as far off the triangle as the
  * corners' tangent planes, plus a small lift against rounding. Concave points stay on the triangle;
  * for light from behind they are the ones that bulge. */
-static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float most, shadow_points *p) {
+static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float whole, shadow_points *p) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_vec3 corners[3] = { shadow_lane(&t->corners[0], i),
                                       shadow_lane(&t->corners[1], i),
@@ -66,7 +66,7 @@ static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float most, shad
                                   length > 0 ? sum.y * to_unit : side * face.y,
                                   length > 0 ? sum.z * to_unit : side * face.z };
         const float height = side * bulge(t, i, at), off = height > 0 ? height : 0;
-        const float hollow = height < 0 ? height : 0, lift = trace_lift_at(most, at, corners);
+        const float hollow = height < 0 ? height : 0, lift = trace_lift_at(whole, at, corners);
         shadow_set_lane(&p->smooth, i, smooth);
         shadow_set_lane(&p->origin, i,
                         vec_add(vec_add(at, vec_scale(smooth, off)), vec_scale(face, side * lift)));

@@ -18,12 +18,12 @@ static float largest_of(lmp_vec3 v) {
 /* Where a ray meets a triangle is a mean of its corners' distances, which rounds off it by up to
  * about 1.5e-7 of their coordinates. Normals and what is modeled ask for more, but only in
  * proportion to how far the point is from the origin. */
-float trace_lift_at(double lift, lmp_vec3 point, const lmp_vec3 corners[3]) {
-    const float most = (float)lift, own = 1e-4f * largest_of(point);
-    float least = own > most / 100 ? own : most / 100;
+float trace_lift_at(float lift, lmp_vec3 point, const lmp_vec3 corners[3]) {
+    const float own = 1e-4f * largest_of(point);
+    float least = own > lift / 100 ? own : lift / 100;
     for (int i = 0; corners && i < 3; i++) {
         const float far = 1e-6f * largest_of(corners[i]);
         least = far > least ? far : least;
     }
-    return least < most ? least : most;
+    return least < lift ? least : lift;
 }

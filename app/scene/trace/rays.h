@@ -43,6 +43,6 @@ double trace_lift(const scene *scene);
 /* Returns the same for a point of a triangle, in the scene of that lift: in proportion to the
  * coordinates that are rounded, its own, its corners' (unless these are NULL) and hardly the
  * scene's, so that a small model on wide ground or under a distant sky casts its shadow. */
-float trace_lift_at(double lift, lmp_vec3 point, const lmp_vec3 corners[3]);
+float trace_lift_at(float lift, lmp_vec3 point, const lmp_vec3 corners[3]);
 
 #endif
