@@ -108,7 +108,9 @@ static void reach_of(const pyramid *f, lmp_vec3 point, float sides[4], float *ra
 static bool may_touch(const scene *s, size_t instance, const pyramid *f) {
     const box b = box_of(s, instance);
     float sides[4], radius;
-    for (int i = 0; i < 8 && size_of(&b) <= f->subject.largest; i++) {
+    if (!(size_of(&b) <= f->subject.largest))
+        return false;
+    for (int i = 0; i < 8; i++) {
         const lmp_vec3 corner =
             vec(i & 1 ? b.high.x : b.low.x, i & 2 ? b.high.y : b.low.y, i & 4 ? b.high.z : b.low.z);
         reach_of(f, corner, sides, &radius);

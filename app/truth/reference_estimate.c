@@ -314,7 +314,7 @@ static bool meet(const struct reference_candidate *c, reference_vec point, refer
  * off the surface, the way to what faces it is shorter. */
 static bool is_hidden(const struct reference_candidate *c, const reference_surface *surface,
                       reference_vec w, double distance, double path) {
-    if (!c->source.is_area)
+    if (!c->source.is_area || isinf(path))
         return distance > path;
     const reference_area_hit hit =
         reference_area_meet(&c->source.area, reference_ray_origin(surface, w), w);

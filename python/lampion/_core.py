@@ -154,10 +154,6 @@ def enumerator_name(ctype: Any, value: int) -> str:
     return elements[value][prefix.rindex("_") + 1:].lower()
 
 
-def _named(cls: type) -> str:
-    return f"{cls.__module__}.{cls.__qualname__}"
-
-
 def _flat(members: SimpleNamespace) -> dict[str, Any]:
     """The members of a record and of the records in it."""
     flat = {}
@@ -185,8 +181,9 @@ class Owner:
         raise TypeError(f"a {type(self).__name__} can be neither copied nor pickled: make another")
 
     def __repr__(self) -> str:
-        describe = getattr(self, "describe", None)
-        return f"<{_named(type(self))}{': ' + _listed(describe()) if describe else ''}>"
+        cls, describe = type(self), getattr(self, "describe", None)
+        members = f": {_listed(describe())}" if describe else ""
+        return f"<{cls.__module__}.{cls.__qualname__}{members}>"
 
 
 class _View:

@@ -123,9 +123,8 @@ class Field(_host.Stored):
 
     def add(self, light: Any) -> None:
         """Add one light, at the end."""
-        if _light.as_lights(light).size != 1:
-            raise ValueError("light must be a single one")
-        listed, host = self._fitting(light, self.describe().light_count), _host.Host()
+        one, host = _light.single(light), _host.Host()
+        listed = self._fitting(one, self.describe().light_count)
         host.check(lib.lmp_field_add(host.c, self._c, _light.pointer(listed)))
 
     def remove(self, at: int) -> None:

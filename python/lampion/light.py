@@ -218,7 +218,8 @@ def pointer(lights: NDArray) -> Any:
     return _arrays.pointer(lights, "lmp_light *")
 
 
-def _one(light: Any, areas: bool = True) -> NDArray:
+def single(light: Any, areas: bool = True) -> NDArray:
+    """One checked light."""
     array = as_lights(light, areas=areas)
     if array.size != 1:
         raise ValueError(f"light must be a single one, not {array.size}")
@@ -226,7 +227,7 @@ def _one(light: Any, areas: bool = True) -> NDArray:
 
 
 def _one_area(area: Any) -> NDArray:
-    array = _one(area)
+    array = single(area)
     if not np.isin(array["kind"], _areas).all():
         raise ValueError("light must be an area")
     return array
@@ -238,7 +239,7 @@ def _one_area(area: Any) -> NDArray:
 def find_cap(light: Any, point: ArrayLike) -> NDArray:
     """The cap of one light, which is not an area, as seen from points (…, 3): an array (…) with the
     members axis, sin2, one_minus_cos, strength and ambient of lmp_cap."""
-    one, places = _one(light, areas=False), _arrays.points("point", point)
+    one, places = single(light, areas=False), _arrays.points("point", point)
     return _arrays.each(None, (), lambda p, cap: lib.lmp_light_find_cap(pointer(one), p[0], cap),
                         ("point", places, 1, "lmp_vec3 *"), dtype=_core.dtype_of("lmp_cap"),
                         ctype="lmp_cap *")
@@ -247,7 +248,7 @@ def find_cap(light: Any, point: ArrayLike) -> NDArray:
 def project_zonal(bands: int, light: Any, point: ArrayLike) -> tuple[NDArray, NDArray]:
     """Zonal coefficients (…, n) at points (…, 3) of one light of unit strength, which is not an
     area, and their axes (…, 3), to the light."""
-    n, one, places = _core.bands(bands), _one(light, areas=False), _arrays.points("point", point)
+    n, one, places = _core.bands(bands), single(light, areas=False), _arrays.points("point", point)
     axis = np.empty(places.shape, np.float32)
     zonal = _arrays.each(
         None, (n,),
@@ -259,7 +260,7 @@ def project_zonal(bands: int, light: Any, point: ArrayLike) -> tuple[NDArray, ND
 def project_gradient(bands: int, light: Any, point: ArrayLike) -> tuple[NDArray, NDArray]:
     """Coefficients (…, n²) at points (…, 3) of one light of unit strength, and their derivatives
     (…, 3, n²) with respect to the point: d/dx, d/dy, d/dz."""
-    n, one, places = _core.bands(bands), _one(light), _arrays.points("point", point)
+    n, one, places = _core.bands(bands), single(light), _arrays.points("point", point)
     gradient = np.empty(places.shape[:-1] + (3, n * n), np.float32)
     sh = _arrays.each(
         None, (n * n,),
@@ -330,7 +331,7 @@ def irradiance(lights: Any, point: ArrayLike, normal: ArrayLike, *,
 def range(light: Any, irradiance: float) -> float:
     """The distance beyond which one light gives any surface at most this irradiance, above 0, in
     every channel; 0 if it never gives more, infinity if it does everywhere."""
-    return lib.lmp_light_range(pointer(_one(light)), _core.number("irradiance", irradiance, 1e-45))
+    return lib.lmp_light_range(pointer(single(light)), _core.number("irradiance", irradiance, 1e-45))
 
 
 def copy_area_texels(area: Any) -> NDArray[np.float32]:

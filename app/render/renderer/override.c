@@ -3,7 +3,6 @@
 
 #include "app/base/choice.h"
 #include "app/render/method.h"
-#include <math.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -88,8 +88,12 @@ static bool is_beside(const reading *r, size_t i, lmp_vec3 point, lmp_vec3 norma
            fabsf(vec_dot(away, own)) <= 0.1f * spacing && vec_dot(own, normal) >= 0.95f;
 }
 
-static bool differ(float a, float b) {
+static bool are_far(float a, float b) {
     return fabsf(a - b) > contrast * (a > b ? a : b);
+}
+
+static bool differ(lmp_rgb a, lmp_rgb b) {
+    return are_far(a.r, b.r) || are_far(a.g, b.g) || are_far(a.b, b.b);
 }
 
 /* A square of pixels around one, and which of its corners lie on the same surface as that one. */
@@ -133,7 +137,7 @@ static bool interpolate(reading *r, const square *q, lmp_rgb *irradiance) {
     for (int i = 0; i < q->count; i++) {
         const lmp_rgb e = read_pixel(r, q->corner[i]);
         const float weight = q->weight[i] + 1e-3f; /* should only far corners be on the surface */
-        if (differ(first.r, e.r) || differ(first.g, e.g) || differ(first.b, e.b))
+        if (differ(first, e))
             return false;
         sum.r += weight * e.r;
         sum.g += weight * e.g;
@@ -186,7 +190,7 @@ static void fill_square(reading *r, int left, int top) {
     const square q = find_square(r, left, top, APART);
     for (int i = 0; i < q.count; i++) {
         e[i] = read_pixel(r, q.corner[i]);
-        if (differ(e[0].r, e[i].r) || differ(e[0].g, e[i].g) || differ(e[0].b, e[i].b))
+        if (differ(e[0], e[i]))
             return;
     }
     for (int y = top; q.count == 4 && y < top + APART && y < r->height; y++) {
