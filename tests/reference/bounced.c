@@ -155,6 +155,38 @@ static void the_power_of_a_lamp_is_kept(void **state) {
     close_room(&r);
 }
 
+/* Across less of a wall than surfels are apart, bounced light is read at the corners of the image,
+ * and is linear between them, along both axes. */
+static void between_pixels_that_are_read_light_is_linear(void **state) {
+    (void)state;
+    room r;
+    scene_light lamp;
+    image lit, direct;
+    open_room(cube_obj, "", 0.6, &r);
+    set_lamp(&r, 0, &lamp);
+    lamp.emitter.position = (lmp_vec3) { 0.7f, -0.6f, -0.2f };
+    r.settings.camera = (scene_camera) { .eye = { 0.6f, -0.7f, 0.5f },
+                                         .target = { 0.6f, -0.7f, -1 },
+                                         .up = { 0, 1, 0 },
+                                         .height = 0.04f };
+    draw(&r, 8, false, &lit);
+    draw(&r, 0, false, &direct);
+    for (int p = 0; p < 3 * PIXELS; p++)
+        lit.rgb[p] -= direct.rgb[p];
+    for (int axis = 0; axis < 2; axis++) {
+        const int step = 3 * (axis ? SIDE : 1);
+        const double first = (double)lit.rgb[0], rise = (double)lit.rgb[(SIDE - 1) * step] - first;
+        assert_true(fabs(rise) > 1e-3 * first);
+        for (int k = 1; k < SIDE - 1; k++)
+            for (int c = 0; c < 3; c++)
+                CHECK_WITHIN(fabs((double)lit.rgb[k * step + c] - first - rise * k / (SIDE - 1)),
+                             0.02 * fabs(rise));
+    }
+    image_free(&lit);
+    image_free(&direct);
+    close_room(&r);
+}
+
 /* The walls are infinitely thin. */
 static void nothing_leaks_into_a_closed_room(void **state) {
     (void)state;
@@ -264,6 +296,7 @@ int main(void) {
         cmocka_unit_test(the_exposure_sees_bounces),
         cmocka_unit_test(what_stands_on_a_wall_hides_it),
         cmocka_unit_test(the_power_of_a_lamp_is_kept),
+        cmocka_unit_test(between_pixels_that_are_read_light_is_linear),
         cmocka_unit_test(nothing_leaks_into_a_closed_room),
         cmocka_unit_test(probes_see_the_geometric_series),
         cmocka_unit_test(probes_see_the_floor_below_them),
