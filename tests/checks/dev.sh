@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # ./dev keeps its build folders to itself: one that somebody configured without tests or program by hand is
-# reconfigured, and said to be; one of its own is left alone. Presets for people have other folders.
+# reconfigured, and said to be; one of its own is left alone. Presets for people have other folders. Its tests end with
+# what failed.
 set -eu
 . tests/checks/common.sh
 
@@ -32,3 +33,25 @@ $build" ] || fail "a folder of $wrong is taken as it is: $(cat "$LOG")"
 done
 ! grep -h 'cmake --preset' README.md docs/*.md | grep -vE 'preset (library|install|web)\b' ||
     fail "a document sends its readers into a folder of ./dev"
+
+# What failed is told again at the end, with the last of what it printed.
+cat >"$WORK/bin/ctest" <<'CTEST'
+#!/bin/sh
+cat <<'LOG'
+ 1/3 Test  #1: unit.one .........   Passed    0.04 sec
+ 2/3 Test  #2: unit.two .........***Failed    0.05 sec
+of the second
+      Start  4: unit.four
+ 3/3 Test  #3: unit.three .......***Timeout   9.00 sec
+33% tests passed, 2 tests failed out of 3
+LOG
+exit 8
+CTEST
+printf '#!/bin/sh\n' >"$WORK/bin/clang-format"
+chmod +x "$WORK/bin/ctest" "$WORK/bin/clang-format"
+! (cd "$WORK/tree" && git init -q && PATH="$WORK/bin:$PATH" ./dev test --quick) >"$WORK/out" 2>"$WORK/err" ||
+    fail "./dev test succeeds where tests failed"
+[ "$(tail -n 4 "$WORK/out")" = "failed: unit.two
+    of the second
+failed: unit.three
+3 passed, 2 failed" ] || fail "./dev test does not end with what failed: $(cat "$WORK/out" "$WORK/err")"
