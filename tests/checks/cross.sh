@@ -33,6 +33,13 @@ for tool in $compiler $run; do
     command -v $tool >/dev/null || { echo "skipped: $tool is not installed"; exit 0; }
 done
 
+# One server for all of the programs: one that stops while the next program starts would fail it.
+if [ $platform = windows ]; then
+    mkdir -p "$WINEPREFIX"
+    wineserver -p
+    trap 'wineserver -k' EXIT
+fi
+
 built=$WORK/built
 cmake -S "$SOURCE" -B "$built" -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=$level -DNDEBUG" -DCMAKE_SYSTEM_NAME=$system \
     -DCMAKE_SYSTEM_PROCESSOR=$processor -DCMAKE_C_COMPILER=$compiler "-DCMAKE_C_FLAGS=$flags" \

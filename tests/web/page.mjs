@@ -293,7 +293,8 @@ async function small() {
 
 // Presses the button by the keyboard, and returns what the page says then.
 async function pressShare(clipboard) {
-    await evaluate(`navigator.clipboard.writeText = ${clipboard}, document.getElementById("share").focus(), 0`);
+    await evaluate(`navigator.clipboard.writeText = ${clipboard}, document.getElementById("shared").value = "",
+        document.getElementById("share").focus(), 0`);
     for (const type of ['keyDown', 'keyUp'])
         await tell('Input.dispatchKeyEvent', { type, key: 'Enter', code: 'Enter', windowsVirtualKeyCode: 13, text: type === 'keyDown' ? '\r' : '' });
     await until('document.getElementById("shared").value !== ""');
@@ -340,7 +341,7 @@ async function adapt() {
     await open('time=0&lights=30&closed');
     await until('lampion.rested()');
     const rest = await width();
-    assert.ok(moving >= 64 && rest >= 160 && moving <= rest, `${moving} pixels across while lights move, ${rest} at rest`);
+    assert.ok(moving >= 64 && rest >= moving, `${moving} pixels across while lights move, ${rest} at rest`);
     await browser.size(320, 180);
 }
 
@@ -406,7 +407,7 @@ try {
     }
     assert.deepEqual(browser.complaints.filter((line) => !/CONTEXT_LOST/.test(line)), []);
 } catch (error) {
-    console.log(error.message, ...browser.complaints);
+    console.log(error.stack, ...browser.complaints);
     status = 1;
 }
 await browser.close();
