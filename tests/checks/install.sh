@@ -53,18 +53,18 @@ export PKG_CONFIG_PATH="$lib/pkgconfig" LD_LIBRARY_PATH="$lib"
 consume shared
 consume static
 unset PKG_CONFIG_PATH LD_LIBRARY_PATH
-simd=OFF # compiling every instruction set within another project is of the long form
-[ -z "${LAMPION_LONG:-}" ] || simd=ON
-quietly cmake -G Ninja -S "$WORK/inside" -B "$WORK/inside/build" -DCMAKE_BUILD_TYPE=Debug -DLAMPION_SIMD=$simd
+simd=OFF type=Debug # compiling every instruction set within another project is of the long form
+[ -z "${LAMPION_LONG:-}" ] || simd=ON type=Release # which is what the library alone compiles below, once with ccache
+quietly cmake -G Ninja -S "$WORK/inside" -B "$WORK/inside/build" -DCMAKE_BUILD_TYPE=$type -DLAMPION_SIMD=$simd
 quietly cmake --build "$WORK/inside/build"
 "$WORK/inside/build/first_light" >"$WORK/inside.txt"
 
 # The library alone needs nothing of the program's.
-quietly cmake --preset library -B "$WORK/alone" -DCMAKE_INSTALL_PREFIX="$WORK/alone/installed"
-! grep -qiE 'embree|pkg_config|cmocka' "$WORK/alone/CMakeCache.txt" || fail "the library alone looks for the program's libraries"
+quietly cmake --preset library -B "$WORK/alone/build" -DCMAKE_INSTALL_PREFIX="$WORK/alone/installed"
+! grep -qiE 'embree|pkg_config|cmocka' "$WORK/alone/build/CMakeCache.txt" || fail "the library alone looks for the program's libraries"
 [ -z "${LAMPION_LONG:-}" ] || {
-    quietly cmake --build "$WORK/alone"
-    quietly cmake --install "$WORK/alone"
+    quietly cmake --build "$WORK/alone/build"
+    quietly cmake --install "$WORK/alone/build"
     quietly env PKG_CONFIG_PATH="$(dirname "$(find "$WORK/alone/installed" -name lampion.pc)")" \
         sh -c 'cc "$1" $(pkg-config --cflags --libs lampion) -o "$2"' - "$WORK/first_light.c" "$WORK/alone/first_light"
     "$WORK/alone/first_light" | cmp "$WORK/inside.txt" - || fail "the library alone gives another color"
