@@ -64,7 +64,7 @@ set(CPACK_DEBIAN_PYTHON_DESCRIPTION
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME lampion)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libassimp5, libegl1, libgl1, libgl1-mesa-dri, libglfw3, libpangocairo-1.0-0") # opened while running
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libassimp5, libegl1, libgl1, libgl1-mesa-dri, libglfw3") # opened while running
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION
   "${about}\n\nThis is the program, which renders \
 glTF and OBJ scenes with or without a GPU.")

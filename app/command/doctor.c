@@ -9,7 +9,7 @@
 #include "app/render/renderer/renderer.h"
 #include "app/scene/scene.h"
 #include "app/scene/trace/trace.h"
-#include "app/view/overlay.h"
+#include "app/view/ui.h"
 #include "app/view/window.h"
 
 #include <lampion/base.h>
@@ -99,7 +99,7 @@ static void find_libraries(findings *f) {
     add_library(f, 3, "libpng", "%s", png_get_libpng_ver(NULL));
     add_library(f, 4, "jansson", "%s", jansson_version_str());
     add_late_library(f, 5, "GLFW", view_window_version);
-    add_late_library(f, 6, "Pango", view_overlay_version);
+    add_library(f, 6, "Dear ImGui", "%s", ui_version());
 }
 
 static void find_all(int mask, const char *device, findings *f) {

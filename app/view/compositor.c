@@ -89,10 +89,6 @@ void view_compositor_destroy(view_compositor *s) {
     free(s);
 }
 
-gpu_screen *view_compositor_screen(view_compositor *s) {
-    return s->screen;
-}
-
 /* --- fields ----------------------------------------------------------------------------------- */
 
 /* Makes a field for so many bands, or frees it if the method reads none. */

@@ -53,7 +53,4 @@ void view_compositor_show(view_compositor *compositor, const view_settings *sett
 bool view_compositor_write(view_compositor *compositor, const view_settings *settings,
                            const char *path, base_error *error);
 
-/* Returns the screen, for drawings over it; NULL without OpenGL. */
-gpu_screen *view_compositor_screen(view_compositor *compositor);
-
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* frame.c - draws an image as finely as time allows. */
+#include "app/view/ui.h"
 #include "app/view/viewer.h"
 
 #include <math.h>
@@ -13,10 +14,11 @@ bool view_steps_time(const viewer *v) {
     return v->script_next < v->script.count || v->state.recording;
 }
 
-static void show(viewer *v, const char *announcement) {
+/* Shows the image, and over it what view_draw_labels has laid out. */
+static void show(viewer *v) {
     const double began = view_window_clock();
     view_compositor_show(v->compositor, v->drawn, (float)(2 * view_window_scale(v->window)));
-    view_draw_labels(v, announcement);
+    ui_draw();
     view_window_swap(v->window);
     v->show_seconds = view_window_clock() - began;
 }
@@ -90,23 +92,6 @@ static bool draw(viewer *v, bool *worked, base_error *error) {
     return true;
 }
 
-/* Whether the drawings over the image must change; remembers their new contents. */
-static bool changes_over(viewer *v, const char *announcement) {
-    const view_state *s = &v->state;
-    drawn_over now;
-    memset(&now, 0, sizeof now);
-    now.help = s->help;
-    now.overlay = s->overlay;
-    now.playing = s->playing;
-    now.selected = s->selected;
-    memcpy(&now.panel, &s->panel, sizeof s->panel);
-    memcpy(now.message, s->message, strlen(s->message));
-    now.announcement = announcement;
-    const bool changed = memcmp(&now, &v->over, sizeof now) != 0;
-    v->over = now;
-    return changed;
-}
-
 /* Whether another process does the slow work. Tables that will not fit are not made; drawing
  * reports that. */
 static bool is_baking(viewer *v) {
@@ -127,7 +112,8 @@ bool view_draw_frame(viewer *v, bool *worked, base_error *error) {
         shade_as_before(v, v->shown);
     } else if (slow && !v->waiting) {
         v->waiting = true;
-        show(v, slow);
+        view_draw_labels(v, slow, false);
+        show(v);
         *worked = true;
         return true;
     }
@@ -139,10 +125,10 @@ bool view_draw_frame(viewer *v, bool *worked, base_error *error) {
         return false;
     const bool redraw = v->state.requests.redraw;
     v->state.requests.redraw = false;
-    if (!changes_over(v, bakes ? slow : NULL) && !*worked && !redraw)
+    if (!view_draw_labels(v, bakes ? slow : NULL, *worked) && !*worked && !redraw)
         return true;
     *worked = true;
-    show(v, bakes ? slow : NULL);
+    show(v);
     if (first)
         v->divisor = 2;
     else if (moving)

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* labels.c - the drawings over the image: statistics, help, messages, the selected light's ring. */
+/* labels.c - what the drawings over the image say: statistics, help, messages, the ring around the
+ * selected light. */
 #include "app/view/overlay.h"
 #include "app/view/panel.h"
+#include "app/view/ui.h"
 #include "app/view/viewer.h"
 
 #include <math.h>
@@ -9,18 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PANEL_SECONDS 0.25 /* between updates of the statistics */
-enum { PANEL_ROWS = 16 };
-
-enum {
-    DRAWING_PANEL,
-    DRAWING_HELP,
-    DRAWING_MESSAGE,
-    DRAWING_RING,
-    DRAWING_LEFT,
-    DRAWING_RIGHT,
-    DRAWING_VALUES
-};
+#define STATISTICS_SECONDS 0.25 /* between updates, in which they can be read */
+enum { STATISTICS_ROWS = 16 };
 
 static void add_row(view_row *rows, int *count, const char *name, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -53,10 +45,24 @@ static void describe_lights(const view_state *s, char *text, size_t size) {
         snprintf(text + used, size - (size_t)used, ", radius %.3g", (double)light->radius);
 }
 
-static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
+/* Takes the times to be shown: those of an image, but not more often than can be read. */
+static void take_statistics(viewer *v, bool fresh) {
+    if (!fresh || (v->told.sample >= 0 && v->clock < v->told.at + STATISTICS_SECONDS &&
+                   v->sample < v->drawn->samples - 1))
+        return;
+    v->told = (view_told) { .statistics = v->statistics,
+                            .frame_seconds = v->frame_seconds,
+                            .show_seconds = v->show_seconds,
+                            .at = v->clock,
+                            .sample = v->sample < 0 ? 0 : v->sample,
+                            .samples = v->sample < 0 ? 1 : v->drawn->samples };
+}
+
+static int fill_statistics(const viewer *v, view_row rows[STATISTICS_ROWS]) {
     const view_state *s = &v->state;
     const view_settings *d = v->drawn;
-    const render_times *t = &v->statistics.times;
+    const view_told *told = &v->told;
+    const render_times *t = &told->statistics.times;
     char shading[96], text[96];
     int count = 0;
     add_row(rows, &count, "Lampion", "%s", "");
@@ -71,98 +77,41 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
     add_row(rows, &count, "Lights", "%s", text);
     add_row(rows, &count, "Time", "%s %.2f s%s", s->path_names[s->path], s->seconds,
             s->playing ? "" : ", paused");
-    if (v->frame_seconds > 0)
-        add_row(rows, &count, "Moving", "%.0f ms a frame, %.1f a second", 1e3 * v->frame_seconds,
-                1 / v->frame_seconds);
-    add_row(rows, &count, "Image", "%d × %d, sample %d of %d", v->statistics.width,
-            v->statistics.height, v->sample < 0 ? 1 : v->sample + 1,
-            v->sample < 0 ? 1 : d->samples);
+    if (told->frame_seconds > 0)
+        add_row(rows, &count, "Moving", "%.0f ms a frame, %.1f a second", 1e3 * told->frame_seconds,
+                1 / told->frame_seconds);
+    add_row(rows, &count, "Image", "%d × %d, sample %d of %d", told->statistics.width,
+            told->statistics.height, told->sample + 1, told->samples);
     add_row(rows, &count, "Geometry", "%.1f ms", t->surfaces);
     add_row(rows, &count, "Shading", "%.1f ms on the %s", t->shade,
-            device_table[v->statistics.device].text);
+            device_table[told->statistics.device].text);
     if (t->shadow > 0)
         add_row(rows, &count, "Shadows", "%.1f ms", t->shadow);
     if (t->bounces > 0)
         add_row(rows, &count, "Bounces", "%.1f ms", t->bounces);
     if (t->transfer > 0)
         add_row(rows, &count, "Transfer", "%.1f ms", t->transfer);
-    add_row(rows, &count, "Window", "%.1f ms", 1e3 * v->show_seconds);
+    add_row(rows, &count, "Window", "%.1f ms", 1e3 * told->show_seconds);
     if (s->recording)
         add_row(rows, &count, "Recording", "%s, %d frames", v->record, v->recorded);
     return count;
 }
 
-/* Uploads a drawing as `index` and stores its size. */
-static void upload(viewer *v, int index, view_drawing *drawing) {
-    if (drawing->pixels) {
-        gpu_screen_upload(view_compositor_screen(v->compositor), index, drawing->width,
-                          drawing->height, drawing->pixels);
-        v->labels[index].width = drawing->width;
-        v->labels[index].height = drawing->height;
-    }
-    view_drawing_free(drawing);
-}
-
-static void put(viewer *v, int index, int x, int y) {
-    const gpu_layout layout = { .width = v->drawn->width, .height = v->drawn->height };
-    gpu_screen_draw(view_compositor_screen(v->compositor), &layout, index, x, y);
-}
-
-/* Whether a label must be drawn again for this text and this room. */
-static bool outdated(label *l, const char *text, double scale, int room) {
-    if (l->width > 0 && strcmp(l->text, text) == 0 && l->scale == scale && l->room == room)
-        return false;
-    snprintf(l->text, sizeof l->text, "%s", text);
-    l->scale = scale;
-    l->room = room;
-    return true;
-}
-
-static void draw_panel(viewer *v, double scale) {
-    label *l = &v->labels[DRAWING_PANEL];
-    if (l->width == 0 || l->scale != scale || v->clock >= v->panel_at + PANEL_SECONDS) {
-        view_row rows[PANEL_ROWS];
-        view_drawing drawing = view_draw_panel(rows, fill_panel(v, rows), scale);
-        l->scale = scale;
-        v->panel_at = v->clock;
-        upload(v, DRAWING_PANEL, &drawing);
-    }
-    put(v, DRAWING_PANEL, (int)(12 * scale), (int)(12 * scale));
-}
-
-/* Draws a line whose box is centered at x, with its lower edge at y. */
-static void draw_line(viewer *v, int index, const char *text, double scale, int room, double x,
-                      double y) {
-    label *l = &v->labels[index];
-    if (outdated(l, text, scale, room)) {
-        view_drawing drawing = view_draw_message(text, room, scale);
-        upload(v, index, &drawing);
-    }
-    put(v, index, (int)(x - 0.5 * l->width), (int)(y - l->height));
-}
-
-static void draw_sides(viewer *v, double scale) {
+/* Says at the divider how each side is shaded. */
+static void draw_sides(const viewer *v, double scale) {
     const view_settings *d = v->drawn;
-    char text[96];
-    if (d->split != GPU_SPLIT_DIVIDED)
-        return;
     const double middle = (double)d->divider * d->width, gap = 10 * scale;
-    for (int side = 0; side < 2; side++) {
-        const int index = side ? DRAWING_RIGHT : DRAWING_LEFT;
+    char text[96];
+    for (int side = 0; side < 2 && d->split == GPU_SPLIT_DIVIDED; side++) {
         describe_shading(&d->shading[side], text, sizeof text);
-        /* its width is known once it is drawn */
-        draw_line(v, index, text, scale, d->width, -d->width, 0);
-        const double half_width = 0.5 * v->labels[index].width + gap;
-        put(v, index,
-            (int)(middle + (side ? half_width : -half_width) - 0.5 * v->labels[index].width),
-            (int)(d->height - 14 * scale - v->labels[index].height));
+        view_draw_message(text, d->width, middle + (side ? gap : -gap), d->height - 14 * scale,
+                          side ? 0 : 1);
     }
 }
 
-static void draw_ring(viewer *v, double scale) {
+static void draw_ring(const viewer *v, double scale) {
     const view_settings *d = v->drawn;
     double x, y, pixels;
-    label *l = &v->labels[DRAWING_RING];
     if (v->state.selected < 0 || (size_t)v->state.selected >= d->light_count)
         return;
     const scene_light *light = &d->lights[v->state.selected];
@@ -170,53 +119,38 @@ static void draw_ring(viewer *v, double scale) {
         !view_project(&d->camera, d->width, d->height, light->emitter.position, &x, &y, &pixels))
         return;
     const double radius = (double)scene_light_extent(&light->emitter) * pixels + 5 * scale;
-    if (!(radius < d->width))
-        return;
-    char text[32];
-    snprintf(text, sizeof text, "%.0f", radius);
-    if (outdated(l, text, scale, 0)) {
-        view_drawing drawing = view_draw_ring(radius, scale);
-        upload(v, DRAWING_RING, &drawing);
-    }
-    put(v, DRAWING_RING, (int)lround(x - 0.5 * l->width), (int)lround(y - 0.5 * l->height));
-}
-
-static void draw_help(viewer *v, double scale) {
-    label *l = &v->labels[DRAWING_HELP];
-    char text[48];
-    snprintf(text, sizeof text, "%d %d", v->drawn->width, v->drawn->height);
-    if (outdated(l, text, scale, 0)) {
-        view_drawing drawing = view_draw_help(v->drawn->width, v->drawn->height, scale);
-        upload(v, DRAWING_HELP, &drawing);
-    }
-    put(v, DRAWING_HELP, (v->drawn->width - l->width) / 2, (v->drawn->height - l->height) / 2);
+    if (radius < d->width)
+        ui_ring(x, y, radius);
 }
 
 /* Draws the panel of values, in the upper right corner. */
-static void draw_values(viewer *v, double scale) {
+static void draw_values(const viewer *v, double scale) {
     view_row rows[VIEW_PANEL_ROWS];
     const int count = view_panel_rows(&v->state, rows);
-    if (count == 0)
-        return;
-    view_drawing drawing = view_draw_panel(rows, count, scale);
-    upload(v, DRAWING_VALUES, &drawing);
-    put(v, DRAWING_VALUES, (int)(v->drawn->width - v->labels[DRAWING_VALUES].width - 12 * scale),
-        (int)(12 * scale));
+    if (count > 0)
+        view_draw_rows(rows, count, v->drawn->width - 12 * scale, 12 * scale, 1);
 }
 
-void view_draw_labels(viewer *v, const char *announcement) {
+bool view_draw_labels(viewer *v, const char *announcement, bool fresh) {
     const double scale = view_window_scale(v->window);
     const char *message = announcement ? announcement : v->state.message;
+    view_row rows[STATISTICS_ROWS];
+    take_statistics(v, fresh);
+    ui_begin(v->drawn->width, v->drawn->height, scale, view_window_clock() - v->laid_at);
+    v->laid_at = view_window_clock();
     draw_ring(v, scale);
     if (v->state.overlay && !v->state.help) {
         draw_sides(v, scale);
-        draw_panel(v, scale);
+        view_draw_rows(rows, fill_statistics(v, rows), 12 * scale, 12 * scale, 0);
     }
     if (v->state.help)
-        draw_help(v, scale);
+        view_draw_help(v->drawn->width, v->drawn->height);
     else
         draw_values(v, scale);
     if (message[0])
-        draw_line(v, DRAWING_MESSAGE, message, scale, (int)(0.9 * v->drawn->width),
-                  0.5 * v->drawn->width, v->drawn->height - 56 * scale);
+        view_draw_message(message, 0.9 * v->drawn->width, 0.5 * v->drawn->width,
+                          v->drawn->height - 56 * scale, 0.5);
+    const uint64_t before = v->labels;
+    v->labels = ui_end();
+    return v->labels != before;
 }

@@ -1,39 +1,29 @@
 /* SPDX-License-Identifier: MIT */
-/* overlay.h - drawings over the image: statistics, help, messages, marks. Pango lays out the text,
- * so that all scripts are legible. */
+/* overlay.h - what is drawn over the image besides the panel: statistics, help, messages, marks.
+ * Within a frame of the interface (app/view/ui.h). */
 #ifndef LAMPION_VIEW_OVERLAY_H
 #define LAMPION_VIEW_OVERLAY_H
 
-#include "app/base/error.h"
+#include <stdbool.h>
 
-/* A drawing: premultiplied BGRA as Cairo's ARGB32, rows from the top. Without pixels: memory ran
- * out, or Pango is not installed. */
-typedef struct view_drawing {
-    int width, height;
-    void *pixels;
-    void *surface; /* Cairo's; owned */
-} view_drawing;
-void view_drawing_free(view_drawing *drawing);
-
-/* A row of a panel: a name and its value or, without `value`, a heading. */
+/* A row of a box: a name and its value or, without `value`, a heading. */
 typedef struct view_row {
     char name[32], value[160];
     bool chosen;
 } view_row;
 
-/* Draws a panel. scale is relative to 96 pixels per inch, as in the functions below. */
-view_drawing view_draw_panel(const view_row *rows, int count, double scale);
+/* A box in pixels, and where its text begins. */
+typedef struct view_box {
+    double x, y, width, height;
+} view_box;
 
-/* Draws all keys, in columns that fit into width x height if possible. */
-view_drawing view_draw_help(int width, int height, double scale);
+/* Draws rows in a box at x, y; `pivot` is the fraction of the width that lies left of x. */
+view_box view_draw_rows(const view_row *rows, int count, double x, double y, double pivot);
 
-/* Draws one line in a rounded box, at most `width` pixels wide. */
-view_drawing view_draw_message(const char *text, int width, double scale);
+/* Draws all keys in the middle of an image, in columns, as large as it has room for. */
+view_box view_draw_help(int width, int height);
 
-/* Draws a ring of that radius in pixels around the middle of the drawing. */
-view_drawing view_draw_ring(double radius, double scale);
-
-/* Writes the version of Pango; returns false if it is not installed. */
-bool view_overlay_version(char *text, size_t size, base_error *error);
+/* Draws a text in a box at most `room` wide whose lower edge is at y. */
+view_box view_draw_message(const char *text, double room, double x, double y, double pivot);
 
 #endif

@@ -92,7 +92,6 @@ static void replace_world(viewer *v, scene *world, view_compositor *compositor) 
     v->world = world;
     v->compositor = compositor;
     v->fresh = true;
-    memset(v->labels, 0, sizeof v->labels);
 }
 
 static void begin_other(viewer *v) {

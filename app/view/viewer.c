@@ -3,6 +3,7 @@
 #include "app/view/view.h"
 
 #include "app/base/error.h"
+#include "app/view/ui.h"
 #include "app/view/viewer.h"
 
 #include <errno.h>
@@ -16,16 +17,17 @@
 static bool open_graphics(viewer *v, base_error *error) {
     v->window =
         view_window_open("Lampion", v->state.now.width, v->state.now.height, &v->state, error);
-    memset(v->labels, 0, sizeof v->labels);
     v->fresh = true;
     if (!v->window)
         return false;
     view_show_title(v);
     return gpu_context_adopt(&v->context, error) &&
-           (v->compositor = view_compositor_create(&v->context, v->world, error));
+           (v->compositor = view_compositor_create(&v->context, v->world, error)) &&
+           (ui_open(true) || base_fail(error, NULL, "the functions of libGL cannot be loaded"));
 }
 
 static void close_graphics(viewer *v) {
+    ui_close();
     view_compositor_destroy(v->compositor);
     view_window_close(v->window);
     v->compositor = NULL;

@@ -16,22 +16,12 @@ typedef struct version {
     long long seconds, nanoseconds, size;
 } version;
 
-/* A drawing on the screen, redrawn when its text changes. */
-typedef struct label {
-    char text[VIEW_MESSAGE_SIZE];
-    double scale;
-    int width, height; /* of the drawing */
-    int room;          /* width that it was made to fit */
-} label;
-
-/* The contents of the drawings over an image. */
-typedef struct drawn_over {
-    bool help, overlay, playing;
-    int selected;
-    view_panel panel;
-    char message[VIEW_MESSAGE_SIZE];
-    const char *announcement; /* shown in place of the message, or NULL */
-} drawn_over;
+/* The statistics that are shown. */
+typedef struct view_told {
+    view_statistics statistics;
+    double frame_seconds, show_seconds, at; /* at: when they were taken */
+    int sample, samples;                    /* 0 samples: nothing was drawn yet */
+} view_told;
 
 typedef struct viewer {
     const view_options *options;
@@ -52,14 +42,15 @@ typedef struct viewer {
     bool moves;                          /* whether the camera moved between the last two frames */
     double show_seconds; /* part of these: scaling, drawings over the image, and the window */
     view_statistics statistics;
+    view_told told;
+    uint64_t labels;         /* the hash of what is drawn over the image */
+    double laid_at;          /* seconds: of the interface's last frame */
     version seen, candidate; /* of the scene file */
     bool another; /* whether the scene is not that of the options: it has its own lights */
-    double watched_at, panel_at, clock;
+    double watched_at, clock;
     int frame, recorded;
     char record[VIEW_PATH_SIZE];
-    drawn_over over; /* those on the screen */
-    bool waiting;    /* whether slow work that was announced comes next */
-    label labels[GPU_DRAWINGS_MAX];
+    bool waiting; /* whether slow work that was announced comes next */
 } viewer;
 
 /* --- reload.c: the scene and its file --------------------------------------------------------- */
@@ -101,8 +92,9 @@ bool view_write_state(viewer *v, base_error *error);
 
 /* --- labels.c: drawings over the image -------------------------------------------------------- */
 
-/* Draws the labels over the image. announcement: a message in place of the state's own, or NULL. */
-void view_draw_labels(viewer *v, const char *announcement);
+/* Lays out what is drawn over the image; returns whether it looks otherwise than before.
+ * announcement: a message in place of the state's own, or NULL. fresh: whether the image is new. */
+bool view_draw_labels(viewer *v, const char *announcement, bool fresh);
 
 /* --- frame.c ---------------------------------------------------------------------------------- */
 

@@ -56,7 +56,7 @@ fi
 
 # Dependencies between the packages.
 grep -q "liblampion$soversion (= $version" "$WORK/liblampion-dev.depends" || fail "dev: $(cat "$WORK/liblampion-dev.depends")"
-for library in libassimp5 libdraco7 libembree3-3 libglfw3 libjpeg62-turbo libmeshoptimizer2d libpango libpng16-16 libopenexr libseccomp2 libwebp7 libxxhash0 libepoxy0 libegl1 libgl1 libgl1-mesa-dri; do
+for library in libassimp5 libdraco7 libembree3-3 libglfw3 libjpeg62-turbo libmeshoptimizer2d libpng16-16 libopenexr libseccomp2 libwebp7 libxxhash0 libepoxy0 libegl1 libgl1 libgl1-mesa-dri; do
     grep -q "$library" "$WORK/lampion.depends" || fail "lampion does not depend on $library"
 done
 [ "$(sed 's/ (.*//' "$WORK/liblampion$soversion.depends")" = libc6 ] || fail "the library depends on more than libc6"

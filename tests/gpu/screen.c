@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A window shows one image or two, upright, and drawings where they belong. */
+/* A window shows one image or two, upright. */
 #include "app/render/gl/program.h"
 #include "app/render/gl/targets.h"
 #include "tests/gpu/device.h"
@@ -109,27 +109,6 @@ static GLuint numbered(int width, int height) {
     return texture;
 }
 
-enum { CORNER_X = 3, CORNER_Y = 5, DRAWN_WIDTH = 6, DRAWN_HEIGHT = 4 };
-
-static void set_corner(void) {
-    glUniform3i(0, CORNER_X, CORNER_Y, SIZE);
-}
-
-static void drawings_lie_at_their_corner_from_the_top_of_a_window(void **state) {
-    (void)state;
-    unsigned char seen[4 * SIZE * SIZE];
-    const GLuint texture = numbered(DRAWN_WIDTH, DRAWN_HEIGHT);
-    draw_window("drawing.frag", texture, set_corner, seen);
-    for (int row = 0; row < DRAWN_HEIGHT; row++)
-        for (int column = 0; column < DRAWN_WIDTH; column++) {
-            const unsigned char *at =
-                seen + 4 * ((SIZE - 1 - CORNER_Y - row) * SIZE + CORNER_X + column);
-            assert_int_equal(at[0], column + 1);
-            assert_int_equal(at[1], row + 1);
-        }
-    glDeleteTextures(1, &texture);
-}
-
 static void set_flip(void) {
     glUniform2f(0, SIZE, SIZE);
     glUniform1i(1, 1);
@@ -148,7 +127,6 @@ static void windows_show_the_first_row_at_their_top(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(screens_are_read_from_the_top_whole_divided_and_as_differences),
-        cmocka_unit_test(drawings_lie_at_their_corner_from_the_top_of_a_window),
         cmocka_unit_test(windows_show_the_first_row_at_their_top),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);

@@ -71,7 +71,6 @@ shaders/program/field.glsl gpu.field
 shaders/*/*.glsl gpu.glsl gpu.table gpu.draw gpu.plate gpu.shade gpu.devices
 shaders/program/*.comp gpu.draw gpu.shade
 shaders/program/compose.frag gpu.screen
-shaders/program/drawing.frag gpu.screen
 shaders/program/screen.vert gpu.screen gpu.draw
 shaders/program/*.frag gpu.draw gpu.plate reference.layers
 shaders/program/*.vert gpu.draw gpu.plate

@@ -9,7 +9,7 @@ export XDG_CACHE_HOME="$WORK/cache"
 folder=$XDG_CACHE_HOME/lampion
 "$PROGRAM" doctor >"$WORK/out" || fail "doctor: $(cat "$WORK/out")"
 for word in 'lampion  *[0-9]' 'CPU .* threads' 'kernels .*scalar' 'OpenGL .*4\.' 'Assimp [0-9]' 'Embree [0-9]' \
-    'OpenEXR [0-9]' 'libpng [0-9]' 'jansson [0-9]' 'GLFW [0-9]' 'Pango [0-9]' "cache  *$folder: 0 files, 0.0 of at most 2048 MiB" 'configuration'; do
+    'OpenEXR [0-9]' 'libpng [0-9]' 'jansson [0-9]' 'GLFW [0-9]' 'Dear ImGui [0-9]' "cache  *$folder: 0 files, 0.0 of at most 2048 MiB" 'configuration'; do
     grep -q "$word" "$WORK/out" || fail "doctor tells nothing of $word: $(cat "$WORK/out")"
 done
 "$PROGRAM" doctor --cpu-mask 1 | grep -q '^kernels  *scalar (of' || fail "doctor ignores --cpu-mask"

@@ -7,7 +7,7 @@ set -eu
 tries=600
 # as in a container that grants less: the viewer's settings alone are 5 MB, and none lie on the stack
 ulimit -s 4096
-# leaks are looked for in view_memory.sh, for the driver and fontconfig have some
+# leaks are looked for in view_memory.sh, for the driver has some
 export ASAN_OPTIONS=detect_leaks=0
 export LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
 mkdir -p "$XDG_CACHE_HOME"

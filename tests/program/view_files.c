@@ -4,6 +4,7 @@
 #include "app/view/overlay.h"
 #include "app/view/preview.h"
 #include "app/view/script.h"
+#include "app/view/ui.h"
 #include "tests/program/view.h"
 
 #include <jansson.h>
@@ -252,24 +253,47 @@ static void previews_of_many_meshes_cost_no_more_than_their_triangles(void **unu
     free(indices);
 }
 
-static void drawings_fit_and_grow_with_the_scale(void **unused) {
-    (void)unused;
+/* Draws every kind once, in frames of their own; returns the box of rows. */
+static view_box draw_over(int width, int height, double scale) {
     const view_row rows[] = { { .name = "Lampion" },
                               { .name = "Scene", .value = "a name with ü, 漢字 and \xff" } };
-    view_drawing one = view_draw_panel(rows, 2, 1), two = view_draw_panel(rows, 2, 2);
-    assert_non_null(one.pixels);
-    CHECK_WITHIN(fabs(two.width / (double)one.width - 2), 0.2);
-    view_drawing_free(&one);
-    view_drawing_free(&two);
-    view_drawing help = view_draw_help(1280, 720, 1);
-    assert_true(help.pixels && help.width <= 1280 && help.height <= 720);
-    view_drawing_free(&help);
-    help = view_draw_help(640, 360, 1);
-    assert_true(help.width <= 640 && help.height <= 360);
-    view_drawing_free(&help);
-    view_drawing line = view_draw_message("a long message that must be broken", 120, 1);
-    assert_true(line.pixels && line.width <= 120);
-    view_drawing_free(&line);
+    ui_begin(width, height, scale, 0.1);
+    const view_box box = view_draw_rows(rows, 2, width, 10, 1);
+    CHECK_NEAR(width, box.x + box.width, 1e-3);
+    const view_box help = view_draw_help(width, height);
+    assert_true(help.x >= -0.01 && help.x + help.width <= width + 0.01);
+    assert_true(help.y >= -0.01 && help.y + help.height <= height + 0.01);
+    const view_box line =
+        view_draw_message("a long message that must be broken", 120 * scale, 60, 400, 0.5);
+    assert_true(line.width <= 120 * scale && line.height > 2 * ui_text_height());
+    CHECK_NEAR(60, line.x + 0.5 * line.width, 1e-3);
+    CHECK_NEAR(400, line.y + line.height, 1e-3);
+    ui_end();
+    return box;
+}
+
+static void drawings_fit_and_grow_with_the_scale(void **unused) {
+    (void)unused;
+    assert_true(ui_open(false));
+    draw_over(1280, 720, 1); /* of a font without some of the characters, which the next has */
+    const view_box one = draw_over(1280, 720, 1), two = draw_over(1280, 720, 2);
+    CHECK_WITHIN(fabs(two.width / one.width - 2), 0.05);
+    draw_over(640, 360, 1);
+    ui_close();
+}
+
+/* What looks the same has the same hash, so that nothing is drawn while nothing changes. */
+static void frames_that_look_the_same_have_one_hash(void **unused) {
+    (void)unused;
+    uint64_t seen[4];
+    assert_true(ui_open(false));
+    for (int i = 0; i < 4; i++) {
+        ui_begin(640, 480, 1, 0.1);
+        view_draw_message(i == 3 ? "Shadow" : "Shadows", 500, 60, 400, 0.5);
+        seen[i] = ui_end();
+    }
+    assert_true(seen[1] == seen[2] && seen[2] != seen[3]);
+    ui_close();
 }
 
 int main(void) {
@@ -282,6 +306,7 @@ int main(void) {
         TEST(previews_have_fewer_triangles_in_the_same_bounds),
         TEST(previews_of_many_meshes_cost_no_more_than_their_triangles),
         TEST(drawings_fit_and_grow_with_the_scale),
+        TEST(frames_that_look_the_same_have_one_hash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

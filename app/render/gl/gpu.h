@@ -105,7 +105,7 @@ bool gpu_read_image(gpu_renderer *renderer, image *image, base_error *error);
 /* --- a window's image ------------------------------------------------------------------------- */
 
 /* What a window shows: one image, two side by side with a divider between them, or their
- * difference; with drawings over it. */
+ * difference. */
 typedef struct gpu_screen gpu_screen;
 gpu_screen *gpu_screen_create(base_error *error);
 void gpu_screen_destroy(gpu_screen *screen);
@@ -132,19 +132,11 @@ typedef struct gpu_layout {
     float line;    /* its width in pixels; 0: not drawn */
 } gpu_layout;
 
-/* Draws the screen into framebuffer 0's window, or reads it to 8-bit RGB of 3 * width * height
- * bytes, rows from the top. */
+/* Draws the screen into framebuffer 0's window, which stays bound to be drawn over, or reads it to
+ * 8-bit RGB of 3 * width * height bytes, rows from the top. */
 void gpu_screen_show(gpu_screen *screen, const gpu_layout *layout);
 bool gpu_screen_read(gpu_screen *screen, const gpu_layout *layout, unsigned char *rgb8,
                      base_error *error);
-
-/* Uploads a drawing: rows from the top, premultiplied BGRA, which is Cairo's ARGB32 on this
- * machine. */
-#define GPU_DRAWINGS_MAX 8
-void gpu_screen_upload(gpu_screen *screen, int drawing, int width, int height, const void *pixels);
-
-/* Draws a drawing over framebuffer 0's window, of layout's size, its upper left corner at x, y. */
-void gpu_screen_draw(gpu_screen *screen, const gpu_layout *layout, int drawing, int x, int y);
 
 /* Whether the device has lost the current context, and with it everything in it. */
 bool gpu_context_lost(void);

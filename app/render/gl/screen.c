@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a window shows: images of renderers, and drawings over them. */
+/* What a window shows: images of renderers. */
 #include "app/render/gl/program.h"
 #include "app/render/gl/state.h"
 
@@ -11,30 +11,21 @@ typedef struct screen_side {
     int width, height;
 } screen_side;
 
-typedef struct screen_drawing {
-    GLuint texture;
-    int width, height;
-} screen_drawing;
-
 struct gpu_screen {
-    GLuint compose, draw, empty_array;
+    GLuint compose, empty_array;
     screen_side sides[2], copy; /* copy: for reading back */
-    screen_drawing drawings[GPU_DRAWINGS_MAX];
 };
 
 gpu_screen *gpu_screen_create(base_error *error) {
     const gpu_stage compose[] = { { GL_VERTEX_SHADER, "screen.vert" },
                                   { GL_FRAGMENT_SHADER, "compose.frag" } };
-    const gpu_stage draw[] = { { GL_VERTEX_SHADER, "screen.vert" },
-                               { GL_FRAGMENT_SHADER, "drawing.frag" } };
     gpu_screen *s = calloc(1, sizeof *s);
     if (!s) {
         base_fail(error, NULL, "out of memory");
         return NULL;
     }
     glCreateVertexArrays(1, &s->empty_array);
-    if (!(s->compose = gpu_program(compose, 2, "", error)) ||
-        !(s->draw = gpu_program(draw, 2, "", error))) {
+    if (!(s->compose = gpu_program(compose, 2, "", error))) {
         gpu_screen_destroy(s);
         return NULL;
     }
@@ -53,12 +44,8 @@ void gpu_screen_destroy(gpu_screen *s) {
     delete_side(&s->sides[0]);
     delete_side(&s->sides[1]);
     delete_side(&s->copy);
-    for (int i = 0; i < GPU_DRAWINGS_MAX; i++)
-        glDeleteTextures(1, &s->drawings[i].texture);
     if (s->compose)
         glDeleteProgram(s->compose);
-    if (s->draw)
-        glDeleteProgram(s->draw);
     glDeleteVertexArrays(1, &s->empty_array);
     free(s);
 }
@@ -112,9 +99,13 @@ void gpu_screen_show(gpu_screen *s, const gpu_layout *layout) {
     if (layout->split == GPU_SPLIT_NONE && side->texture) { /* a blit is cheaper than a shader */
         glBlitNamedFramebuffer(side->framebuffer, 0, 0, 0, side->width, side->height, 0,
                                layout->height, layout->width, 0, GL_COLOR_BUFFER_BIT, GL_LINEAR);
-        return;
+    } else {
+        compose(s, layout, 0, true);
     }
-    compose(s, layout, 0, true);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    /* the program in use may be deleted: to use it again, as what saves and restores the state
+     * does, is an error */
+    glUseProgram(0);
 }
 
 bool gpu_screen_read(gpu_screen *s, const gpu_layout *layout, unsigned char *rgb8,
@@ -128,37 +119,4 @@ bool gpu_screen_read(gpu_screen *s, const gpu_layout *layout, unsigned char *rgb
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(s->copy.texture, 0, GL_RGB, GL_UNSIGNED_BYTE, (GLsizei)size, rgb8);
     return true;
-}
-
-void gpu_screen_upload(gpu_screen *s, int index, int width, int height, const void *pixels) {
-    screen_drawing *drawing = &s->drawings[index];
-    if (drawing->width != width || drawing->height != height) {
-        glDeleteTextures(1, &drawing->texture);
-        glCreateTextures(GL_TEXTURE_2D, 1, &drawing->texture);
-        glTextureStorage2D(drawing->texture, 1, GL_RGBA8, width, height);
-        drawing->width = width;
-        drawing->height = height;
-    }
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTextureSubImage2D(drawing->texture, 0, 0, 0, width, height, GL_BGRA,
-                        GL_UNSIGNED_INT_8_8_8_8_REV, pixels);
-}
-
-void gpu_screen_draw(gpu_screen *s, const gpu_layout *layout, int index, int x, int y) {
-    const screen_drawing *drawing = &s->drawings[index];
-    if (!drawing->texture)
-        return;
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glViewport(0, 0, layout->width, layout->height);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(x, layout->height - y - drawing->height, drawing->width, drawing->height);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glBindVertexArray(s->empty_array);
-    glBindTextureUnit(0, drawing->texture);
-    glUseProgram(s->draw);
-    glUniform3i(0, x, y, layout->height);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDisable(GL_BLEND);
-    glDisable(GL_SCISSOR_TEST);
 }

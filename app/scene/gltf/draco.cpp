@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* draco.cpp - the program's only C++, for a library that has no other interface. No exception
- * leaves it. */
+/* draco.cpp - meshes that Draco compressed, in C++ because the library has no other interface. No
+ * exception leaves it. */
 #include "app/scene/gltf/draco.h"
 
 #include <draco/compression/decode.h>

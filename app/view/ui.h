@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* ui.h - the interface over the image, drawn by Dear ImGui; the library is C++, and this is its
+ * interface to C. There is one at a time. Lengths and places are in pixels, from the upper left
+ * corner. */
+#ifndef LAMPION_VIEW_UI_H
+#define LAMPION_VIEW_UI_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Begins an interface: in the current OpenGL context or, without `draws`, one that is laid out but
+ * not drawn. Returns false if OpenGL's functions cannot be loaded. */
+bool ui_open(bool draws);
+void ui_close(void);
+
+/* Begin and end a frame, in which everything is described anew. `scale` is relative to 96 pixels
+ * per inch. ui_end returns a hash of what is drawn: frames of the same hash look the same. */
+void ui_begin(int width, int height, double scale, double seconds);
+uint64_t ui_end(void);
+
+/* Draws the last frame over the image in the current framebuffer, with as many pixels. */
+void ui_draw(void);
+
+const char *ui_version(void);
+
+/* --- drawings --------------------------------------------------------------------------------- */
+
+typedef enum ui_color { UI_INK, UI_PALE, UI_ACCENT, UI_PAPER, UI_SOLID_PAPER } ui_color;
+
+/* Returns the height of text. */
+double ui_text_height(void);
+
+/* Measures a text; `size` is relative to the interface's. It breaks at `room` pixels, or 0: only
+ * where it has a line break. */
+void ui_measure(const char *text, double size, double room, double *width, double *height);
+
+void ui_write(double x, double y, const char *text, double size, double room, ui_color color);
+void ui_box(double x, double y, double width, double height, double radius, ui_color color);
+void ui_ring(double x, double y, double radius);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
