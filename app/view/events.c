@@ -120,6 +120,7 @@ static void move(view_state *s, double x, double y) {
     s->y = y;
     switch (s->drag) {
     case VIEW_DRAG_NONE:
+    case VIEW_DRAG_SIDEBAR:
         break;
     case VIEW_DRAG_ORBIT:
         view_orbit(&s->now.camera, -yaw, pitch);
@@ -165,6 +166,19 @@ static void press_key(view_state *s, const char *name) {
             key->act(s, key->argument);
             return;
         }
+}
+
+const view_key *view_find_action(const char *name) {
+    for (const view_key *row = view_keys; row->key || row->shown; row++)
+        if (row->name && strcmp(row->name, name) == 0)
+            return row;
+    return NULL;
+}
+
+static void act(view_state *s, const char *name) {
+    const view_key *row = view_find_action(name);
+    if (row)
+        row->act(s, row->argument);
 }
 
 static void hold(view_state *s, char letter, bool down, bool fast) {
@@ -224,6 +238,12 @@ static void take_event(view_state *s, const view_event *event) {
     case VIEW_TYPE:
         type(s, event->text);
         break;
+    case VIEW_ACT:
+        act(s, event->text);
+        break;
+    case VIEW_DAMAGE:
+        s->requests.redraw = true;
+        break;
     case VIEW_SIZE:
         resize(s, (int)event->x, (int)event->y);
         break;
@@ -235,7 +255,12 @@ void view_handle(view_state *s, const view_event *event) {
     take_event(s, event);
     if (!view_camera_is_valid(&s->now.camera))
         s->now.camera = before;
-    if (s->drag == VIEW_DRAG_NONE && event->kind != VIEW_MOVE && event->kind != VIEW_SIZE)
+    if (event->kind != VIEW_MOVE && event->kind != VIEW_SIZE)
+        view_keep(s);
+}
+
+void view_keep(view_state *s) {
+    if (s->drag == VIEW_DRAG_NONE)
         view_history_keep(&s->history, &s->now, s->numbers);
 }
 

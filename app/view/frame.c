@@ -14,11 +14,12 @@ bool view_steps_time(const viewer *v) {
     return v->script_next < v->script.count || v->state.recording;
 }
 
-/* Shows the image, and over it what view_draw_labels has laid out. */
+/* Shows the image, and over it the interface's last frame. */
 static void show(viewer *v) {
     const double began = view_window_clock();
-    view_compositor_show(v->compositor, v->drawn, (float)(2 * view_window_scale(v->window)));
+    view_compositor_show(v->compositor, v->drawn, (float)(2 * v->scale));
     ui_draw();
+    v->over = v->laid;
     view_window_swap(v->window);
     v->show_seconds = view_window_clock() - began;
 }
@@ -112,7 +113,7 @@ bool view_draw_frame(viewer *v, bool *worked, base_error *error) {
         shade_as_before(v, v->shown);
     } else if (slow && !v->waiting) {
         v->waiting = true;
-        view_draw_labels(v, slow, false);
+        view_lay_out(v, slow, false);
         show(v);
         *worked = true;
         return true;
@@ -125,7 +126,8 @@ bool view_draw_frame(viewer *v, bool *worked, base_error *error) {
         return false;
     const bool redraw = v->state.requests.redraw;
     v->state.requests.redraw = false;
-    if (!view_draw_labels(v, bakes ? slow : NULL, *worked) && !*worked && !redraw)
+    view_lay_out(v, bakes ? slow : NULL, *worked);
+    if (v->laid == v->over && !*worked && !redraw)
         return true;
     *worked = true;
     show(v);

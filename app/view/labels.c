@@ -123,34 +123,33 @@ static void draw_ring(const viewer *v, double scale) {
         ui_ring(x, y, radius);
 }
 
-/* Draws the panel of values, in the upper right corner. */
-static void draw_values(const viewer *v, double scale) {
+/* Draws the panel of values, its upper right corner at x, y. */
+static void draw_values(const viewer *v, double x, double y) {
     view_row rows[VIEW_PANEL_ROWS];
     const int count = view_panel_rows(&v->state, rows);
     if (count > 0)
-        view_draw_rows(rows, count, v->drawn->width - 12 * scale, 12 * scale, 1);
+        view_draw_rows(rows, count, x, y, 1);
 }
 
-bool view_draw_labels(viewer *v, const char *announcement, bool fresh) {
-    const double scale = view_window_scale(v->window);
+void view_lay_out(viewer *v, const char *announcement, bool fresh) {
+    const double scale = v->scale;
     const char *message = announcement ? announcement : v->state.message;
+    const int width = v->state.now.width, height = v->state.now.height;
     view_row rows[STATISTICS_ROWS];
     take_statistics(v, fresh);
-    ui_begin(v->drawn->width, v->drawn->height, scale, view_window_clock() - v->laid_at);
-    v->laid_at = view_window_clock();
+    ui_begin(width, height, scale, v->clock - v->laid_at);
+    v->laid_at = v->clock;
     draw_ring(v, scale);
     if (v->state.overlay && !v->state.help) {
         draw_sides(v, scale);
         view_draw_rows(rows, fill_statistics(v, rows), 12 * scale, 12 * scale, 0);
     }
+    const double right = v->uncovered = view_draw_sidebar(v);
     if (v->state.help)
-        view_draw_help(v->drawn->width, v->drawn->height);
+        view_draw_help(width, height);
     else
-        draw_values(v, scale);
+        draw_values(v, right - 12 * scale, 12 * scale);
     if (message[0])
-        view_draw_message(message, 0.9 * v->drawn->width, 0.5 * v->drawn->width,
-                          v->drawn->height - 56 * scale, 0.5);
-    const uint64_t before = v->labels;
-    v->labels = ui_end();
-    return v->labels != before;
+        view_draw_message(message, 0.9 * right, 0.5 * right, height - 56 * scale, 0.5);
+    v->laid = ui_end();
 }

@@ -21,17 +21,20 @@ typedef struct words {
     bool is_number[WORDS_MAX];
 } words;
 
-static bool takes_the_rest(const char *what) {
-    return strcmp(what, "drop") == 0 || strcmp(what, "shot") == 0 || strcmp(what, "type") == 0;
+/* Whether the second word is the last one, with blanks in it. */
+static bool takes_the_rest(const char *what, const char *next) {
+    return strcmp(what, "drop") == 0 || strcmp(what, "shot") == 0 || strcmp(what, "type") == 0 ||
+           next[0] == '"';
 }
 
-/* Splits a line at blanks; the last word of drop, shot and type may contain some. */
+/* Splits a line at blanks; the last word of drop, shot and type, and one in quotes, may contain
+ * some. */
 static void split_words(char *line, words *w) {
     *w = (words) { .count = 0 };
     for (size_t length = strlen(line); length > 0 && strchr(" \t", line[length - 1]); length--)
         line[length - 1] = '\0';
     for (char *at = line + strspn(line, " \t"); *at && w->count < WORDS_MAX;) {
-        const bool rest = w->count == 2 && takes_the_rest(w->text[1]);
+        const bool rest = w->count == 2 && takes_the_rest(w->text[1], at);
         char *end = rest ? at + strlen(at) : at + strcspn(at, " \t");
         w->text[w->count] = at;
         w->is_number[w->count] = number_read(at, (size_t)(end - at), &w->numbers[w->count]);
@@ -58,6 +61,16 @@ static bool find_button(const char *name, view_button *button) {
     return false;
 }
 
+/* Reads an action's name in quotes. */
+static bool read_action(const char *quoted, view_script_line *line) {
+    const size_t length = strlen(quoted);
+    if (length < 3 || quoted[length - 1] != '"' || length - 2 >= sizeof line->text)
+        return false;
+    memcpy(line->text, quoted + 1, length - 2);
+    line->event.kind = VIEW_ACT;
+    return view_find_action(line->text) != NULL;
+}
+
 /* Reads the event after the time; returns false if the words are not an event. */
 static bool read_event(const words *w, view_script_line *line) {
     view_event *e = &line->event;
@@ -76,6 +89,8 @@ static bool read_event(const words *w, view_script_line *line) {
     }
     if (w->count < 3 || w->count > 4)
         return false;
+    if (strcmp(what, "press") == 0 && w->text[2][0] == '"')
+        return w->count == 3 && read_action(w->text[2], line);
     e->shift = w->count == 4 && strcmp(w->text[3], "shift") == 0;
     if (w->count == 4 && !e->shift)
         return false;

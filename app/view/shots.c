@@ -3,6 +3,7 @@
 #include "app/base/file_json.h"
 #include "app/base/file_writer.h"
 #include "app/view/panel.h"
+#include "app/view/ui.h"
 #include "app/view/viewer.h"
 
 #include <errno.h>
@@ -101,6 +102,22 @@ static json_t *with_panel(json_t *ui, const view_state *s) {
     return ui;
 }
 
+static json_t *with_place(json_t *places, const char *name) {
+    double x, y;
+    return ui_find(name, &x, &y) ? file_json_with(places, name, json_pack("[f, f]", x, y)) : places;
+}
+
+/* Lists where the sidebar's title, headings and buttons are that are seen, for tests by input. */
+static json_t *places_to_json(void) {
+    json_t *places = with_place(json_object(), VIEW_SIDEBAR_TITLE);
+    for (const view_key *row = view_keys; row->key || row->shown; row++) {
+        const char *name = row->act ? row->name : row->help ? NULL : row->shown;
+        if (name)
+            places = with_place(places, name);
+    }
+    return places;
+}
+
 static json_t *ui_to_json(const viewer *v) {
     const view_state *s = &v->state;
     json_t *ui =
@@ -109,6 +126,8 @@ static json_t *ui_to_json(const viewer *v) {
                   file_json_string(s->path_names[s->path]), "selected", s->selected, "side",
                   view_side(s), "help", s->help, "overlay", s->overlay, "walking", s->walking);
     ui = with_panel(ui, s);
+    ui = file_json_with(ui, "sidebar", json_boolean(s->sidebar));
+    ui = file_json_with(ui, "places", places_to_json());
     ui = file_json_with(ui, "recording", json_boolean(s->recording));
     ui = file_json_with(ui, "recorded", json_integer(v->recorded));
     ui = file_json_with(ui, "message", file_json_string(s->message));

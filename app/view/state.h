@@ -20,6 +20,8 @@ typedef enum view_event_kind {
     VIEW_FREE,    /* a held key is released; 0: all of them */
     VIEW_DROP,    /* a file, dropped at the pointer */
     VIEW_TYPE,    /* the characters of a text, one after the other, as keys */
+    VIEW_ACT,     /* an action, by its name */
+    VIEW_DAMAGE,  /* the window must be drawn again */
     VIEW_SIZE     /* the image has x times y pixels; none: it is not visible */
 } view_event_kind;
 
@@ -31,7 +33,7 @@ typedef struct view_event {
     view_button button;
     bool shift;       /* held, with a button or a held key */
     char letter;      /* of VIEW_HOLD and VIEW_FREE */
-    const char *text; /* the key, the file, or what is typed */
+    const char *text; /* the key, the action, the file, or what is typed */
 } view_event;
 
 /* --- the state -------------------------------------------------------------------------------- */
@@ -48,7 +50,8 @@ typedef enum view_drag {
     VIEW_DRAG_PAN,
     VIEW_DRAG_LOOK,
     VIEW_DRAG_LIGHT,
-    VIEW_DRAG_DIVIDER
+    VIEW_DRAG_DIVIDER,
+    VIEW_DRAG_SIDEBAR /* something of the interface */
 } view_drag;
 
 /* The open panel of values (app/view/panel.h), and the text typed into it. */
@@ -90,7 +93,7 @@ typedef struct view_state {
     bool held[6], fast;    /* the keys wasdqe; shift with them */
     bool walking;          /* whether the left button looks around, as inside a building */
     view_panel panel;
-    bool help, overlay, recording;
+    bool help, overlay, sidebar, recording;
     int camera;                   /* the scene's camera chosen last */
     char dropped[VIEW_PATH_SIZE]; /* the material dropped last */
     char other[VIEW_PATH_SIZE];   /* another scene to open, or empty */
@@ -114,6 +117,10 @@ void view_put_lights(view_state *state, const scene_light *lights, size_t count)
 bool view_state_replace_scene(view_state *state, const scene *world, base_error *error);
 
 void view_handle(view_state *state, const view_event *event);
+
+/* Makes the present a moment that undo goes back to, if it differs from the last one and nothing is
+ * being dragged. */
+void view_keep(view_state *state);
 
 /* Advances time: flight, the animation, messages. */
 void view_advance(view_state *state, double seconds);
@@ -144,16 +151,21 @@ void view_say(view_state *state, const char *format, ...) __attribute__((format(
 /* Undoes with -1, redoes with 1. */
 void view_undo(view_state *state, int step);
 
-/* --- keys ------------------------------------------------------------------------------------- */
+/* --- actions ---------------------------------------------------------------------------------- */
 
-/* A row of the help: a key by the character that it types, or by its name. */
+/* A row of the help, and a button of the sidebar: what a key does, by the character that it types
+ * or by its name. */
 typedef struct view_key {
     const char *key;   /* "m", "F1", "Shift+Tab"; NULL: a heading, or a gesture of the mouse */
     const char *shown; /* in the help: "m  M"; NULL: not shown, an alternative to the row before */
-    const char *help;
+    const char *help;  /* and the button's tooltip */
     void (*act)(view_state *state, int argument);
     int argument;
+    const char *name; /* on the button, and in scripts; NULL: that of an earlier row */
 } view_key;
 extern const view_key view_keys[]; /* ended by a row of NULLs */
+
+/* Returns the action of that name, or NULL. */
+const view_key *view_find_action(const char *name);
 
 #endif

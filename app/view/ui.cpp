@@ -10,6 +10,9 @@
 #include <xxhash.h>
 
 #include <bitset>
+#include <cstring>
+#include <string>
+#include <unordered_map>
 
 namespace {
 
@@ -42,6 +45,8 @@ struct interface {
     double scale = 0;
     std::bitset<IM_UNICODE_CODEPOINT_MAX + 1> spelled; /* characters of all texts so far */
     bool complete = false;                             /* whether the font has those that exist */
+    std::unordered_map<std::string, ImVec2> places;    /* of headings and buttons */
+    ImVec2 below; /* where the widget after the last button goes, unless beside it */
 };
 
 interface *self;
@@ -155,6 +160,7 @@ void ui_begin(int width, int height, double scale, double seconds) {
         make_font();
     io.DisplaySize = place(width, height);
     io.DeltaTime = static_cast<float>(seconds > SECONDS_MIN ? seconds : SECONDS_MIN);
+    self->places.clear();
     if (self->draws)
         ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
@@ -166,8 +172,10 @@ uint64_t ui_end() {
     XXH64_hash_t hash = 0;
     for (int i = 0; i < drawn->CmdListsCount; i++) {
         const ImDrawList *list = drawn->CmdLists[i];
-        hash = XXH64(list->VtxBuffer.Data, static_cast<size_t>(list->VtxBuffer.size_in_bytes()), hash);
-        hash = XXH64(list->IdxBuffer.Data, static_cast<size_t>(list->IdxBuffer.size_in_bytes()), hash);
+        hash =
+            XXH64(list->VtxBuffer.Data, static_cast<size_t>(list->VtxBuffer.size_in_bytes()), hash);
+        hash =
+            XXH64(list->IdxBuffer.Data, static_cast<size_t>(list->IdxBuffer.size_in_bytes()), hash);
         for (const ImDrawCmd &command : list->CmdBuffer)
             hash = XXH64(&command.ClipRect, sizeof command.ClipRect, hash);
     }
@@ -180,6 +188,144 @@ void ui_draw() {
 
 const char *ui_version() {
     return ImGui::GetVersion();
+}
+
+/* --- input ------------------------------------------------------------------------------------ */
+
+void ui_move(double x, double y) {
+    ImGui::GetIO().MousePos = place(x, y);
+}
+
+void ui_press(int button, bool down) {
+    static const int buttons[] = { 0, 2, 1 }; /* ImGui's right one comes before the middle one */
+    ImGui::GetIO().MouseDown[buttons[button]] = down;
+}
+
+void ui_scroll(double steps) {
+    ImGui::GetIO().MouseWheel += static_cast<float>(steps);
+}
+
+void ui_type(const char *text) {
+    spell(text);
+    ImGui::GetIO().AddInputCharactersUTF8(text);
+}
+
+bool ui_key(const char *name, bool down) {
+    static const struct {
+        const char *name;
+        ImGuiKey key;
+    } keys[] = { { "Tab", ImGuiKey_Tab },
+                 { "Left", ImGuiKey_LeftArrow },
+                 { "Right", ImGuiKey_RightArrow },
+                 { "Up", ImGuiKey_UpArrow },
+                 { "Down", ImGuiKey_DownArrow },
+                 { "Page_Up", ImGuiKey_PageUp },
+                 { "Page_Down", ImGuiKey_PageDown },
+                 { "Home", ImGuiKey_Home },
+                 { "End", ImGuiKey_End },
+                 { "Delete", ImGuiKey_Delete },
+                 { "Backspace", ImGuiKey_Backspace },
+                 { "Enter", ImGuiKey_Enter },
+                 { "Escape", ImGuiKey_Escape },
+                 { "Ctrl+A", ImGuiKey_A },
+                 { "Ctrl+C", ImGuiKey_C },
+                 { "Ctrl+V", ImGuiKey_V },
+                 { "Ctrl+X", ImGuiKey_X },
+                 { "Ctrl+Y", ImGuiKey_Y },
+                 { "Ctrl+Z", ImGuiKey_Z } };
+    ImGuiIO &io = ImGui::GetIO();
+    io.KeyShift = down && strncmp(name, "Shift+", 6) == 0;
+    io.KeyCtrl = down && strncmp(name, "Ctrl+", 5) == 0;
+    for (const auto &row : keys)
+        if (strcmp(row.name, strncmp(name, "Shift+", 6) == 0 ? name + 6 : name) == 0) {
+            io.KeyMap[row.key] = row.key;
+            io.KeysDown[row.key] = down;
+            return true;
+        }
+    return false;
+}
+
+bool ui_covers(double x, double y) {
+    for (const ImGuiWindow *window : ImGui::GetCurrentContext()->Windows)
+        if (window->Active && !window->Hidden &&
+            !(window->Flags & ImGuiWindowFlags_NoMouseInputs) &&
+            window->OuterRectClipped.Contains(place(x, y)))
+            return true;
+    return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);
+}
+
+bool ui_covered() {
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    return ui_covers(static_cast<double>(at.x), static_cast<double>(at.y));
+}
+
+bool ui_takes_text() {
+    return ImGui::GetIO().WantTextInput;
+}
+
+/* --- widgets ---------------------------------------------------------------------------------- */
+
+namespace {
+
+/* Remembers where the last widget is, if it is seen. */
+void mark(const char *name) {
+    const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
+    if (ImGui::IsItemVisible())
+        self->places[name] = ImVec2(0.5f * (lo.x + hi.x), 0.5f * (lo.y + hi.y));
+}
+
+} // namespace
+
+bool ui_sidebar_begin(const char *title, double width, bool *open) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float folded = ImGui::CalcTextSize(title).x + 3 * ImGui::GetFontSize();
+    const float wide = *open ? static_cast<float>(width) : folded;
+    ImGui::SetNextWindowPos(ImVec2(screen.x - wide, 0));
+    ImGui::SetNextWindowSize(ImVec2(wide, screen.y));
+    ImGui::SetNextWindowCollapsed(!*open);
+    const bool seen = ImGui::Begin(title, nullptr,
+                                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                       ImGuiWindowFlags_NoSavedSettings);
+    const ImRect bar = ImGui::GetCurrentWindow()->TitleBarRect();
+    self->places[title] = ImVec2(bar.Min.x + 0.5f * bar.GetHeight(), bar.GetCenter().y);
+    *open = !ImGui::IsWindowCollapsed();
+    return seen;
+}
+
+void ui_sidebar_end() {
+    ImGui::End();
+}
+
+bool ui_section(const char *title) {
+    spell(title);
+    const bool seen = ImGui::CollapsingHeader(title);
+    mark(title);
+    return seen;
+}
+
+bool ui_button(const char *name, const char *tip) {
+    const ImGuiStyle &style = ImGui::GetStyle();
+    const float needed = ImGui::CalcTextSize(name).x + 2 * style.FramePadding.x;
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    if (window->DC.CursorPos.y == self->below.y && window->DC.CursorPos.x == self->below.x &&
+        window->DC.CursorPosPrevLine.x + style.ItemSpacing.x + needed < window->WorkRect.Max.x)
+        ImGui::SameLine();
+    spell(name);
+    const bool pressed = ImGui::Button(name);
+    mark(name);
+    self->below = window->DC.CursorPos;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", tip);
+    return pressed;
+}
+
+bool ui_find(const char *name, double *x, double *y) {
+    const auto found = self->places.find(name);
+    if (found == self->places.end())
+        return false;
+    *x = static_cast<double>(found->second.x);
+    *y = static_cast<double>(found->second.y);
+    return true;
 }
 
 /* --- drawings --------------------------------------------------------------------------------- */

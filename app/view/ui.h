@@ -27,6 +27,38 @@ void ui_draw(void);
 
 const char *ui_version(void);
 
+/* --- input: what the next frame is described for ---------------------------------------------- */
+
+void ui_move(double x, double y);
+void ui_press(int button, bool down); /* 0 left, 1 middle, 2 right */
+void ui_scroll(double steps);
+void ui_type(const char *text);
+
+/* Presses or releases a key, such as Enter or Shift+Left; returns false if it has no meaning. */
+bool ui_key(const char *name, bool down);
+
+/* Whether the last frame has something at a place, where the pointer is, or a field for text that
+ * is active. */
+bool ui_covers(double x, double y);
+bool ui_covered(void);
+bool ui_takes_text(void);
+
+/* --- widgets ---------------------------------------------------------------------------------- */
+
+/* Begins the sidebar, at the right edge. Unless it is open, only its title is there, which opens
+ * it. Returns whether what is in it is seen; ui_sidebar_end follows in any case. */
+bool ui_sidebar_begin(const char *title, double width, bool *open);
+void ui_sidebar_end(void);
+
+/* Adds a heading that folds; returns whether what is below it is seen. */
+bool ui_section(const char *title);
+
+/* Adds a button, beside others if there is room; returns whether it was pressed. */
+bool ui_button(const char *name, const char *tip);
+
+/* Finds the middle of a heading or button of the last frame; returns false if it is not seen. */
+bool ui_find(const char *name, double *x, double *y);
+
 /* --- drawings --------------------------------------------------------------------------------- */
 
 typedef enum ui_color { UI_INK, UI_PALE, UI_ACCENT, UI_PAPER, UI_SOLID_PAPER } ui_color;

@@ -15,12 +15,13 @@
 /* --- the window's graphics -------------------------------------------------------------------- */
 
 static bool open_graphics(viewer *v, base_error *error) {
-    v->window =
-        view_window_open("Lampion", v->state.now.width, v->state.now.height, &v->state, error);
+    v->window = view_window_open("Lampion", v->state.now.width, v->state.now.height,
+                                 view_take_event, v, error);
     v->fresh = true;
     if (!v->window)
         return false;
     view_show_title(v);
+    v->scale = view_window_scale(v->window);
     return gpu_context_adopt(&v->context, error) &&
            (v->compositor = view_compositor_create(&v->context, v->world, error)) &&
            (ui_open(true) || base_fail(error, NULL, "the functions of libGL cannot be loaded"));
@@ -75,7 +76,7 @@ static bool play_script(viewer *v, base_error *error) {
         if (line->event.kind == VIEW_SIZE)
             view_window_resize(v->window, (int)line->event.x, (int)line->event.y);
         else
-            view_handle(&v->state, &line->event);
+            view_take_event(v, &line->event);
         if (v->state.requests.shot)
             return true;
     }
@@ -94,6 +95,7 @@ static bool loop(viewer *v, base_error *error) {
     double before = view_window_clock();
     bool busy = true, worked;
     while (!v->state.requests.quit && (v->options->frames == 0 || v->frame < v->options->frames)) {
+        v->scale = view_window_scale(v->window);
         view_window_take_events(v->window, busy || view_steps_time(v) ? 0 : 0.05);
         pass_time(v, &before);
         if (!play_script(v, error))
@@ -153,6 +155,7 @@ static bool open_viewer(viewer *v, base_error *error) {
     if (o->record)
         snprintf(v->record, sizeof v->record, "%s", o->record);
     v->state.recording = o->record != NULL;
+    v->state.sidebar = !o->script && !o->record && v->state.now.width >= VIEW_SIDEBAR_WIDTH * 3;
     v->divisor = 1;
     if (!open_graphics(v, error))
         return false;

@@ -43,8 +43,11 @@ typedef struct viewer {
     double show_seconds; /* part of these: scaling, drawings over the image, and the window */
     view_statistics statistics;
     view_told told;
-    uint64_t labels;         /* the hash of what is drawn over the image */
-    double laid_at;          /* seconds: of the interface's last frame */
+    double scale;        /* of the display, relative to 96 pixels per inch */
+    uint64_t laid, over; /* hashes of the interface's last frame, and of the one on the screen */
+    double laid_at;      /* seconds: when the last frame was described */
+    double uncovered;    /* width of the image beside the sidebar, in pixels */
+    bool pointed;        /* whether the pointer moved since then */
     version seen, candidate; /* of the scene file */
     bool another; /* whether the scene is not that of the options: it has its own lights */
     double watched_at, clock;
@@ -90,11 +93,27 @@ bool view_record_frame(viewer *v, base_error *error);
 /* Writes the state of the viewer, for tests and debugging. */
 bool view_write_state(viewer *v, base_error *error);
 
-/* --- labels.c: drawings over the image -------------------------------------------------------- */
+/* --- labels.c: what is over the image --------------------------------------------------------- */
 
-/* Lays out what is drawn over the image; returns whether it looks otherwise than before.
- * announcement: a message in place of the state's own, or NULL. fresh: whether the image is new. */
-bool view_draw_labels(viewer *v, const char *announcement, bool fresh);
+/* Describes a frame of the interface, whose hash is v->laid. announcement: a message in place of
+ * the state's own, or NULL. fresh: whether the image is new. */
+void view_lay_out(viewer *v, const char *announcement, bool fresh);
+
+/* --- sidebar.c: the panel at the right, every action as a button under the help's headings ------
+ */
+
+#define VIEW_SIDEBAR_TITLE "Lampion"
+enum { VIEW_SIDEBAR_WIDTH = 320 }; /* pixels at 96 per inch, or half of a narrower window */
+
+/* Describes the sidebar, within a frame of the interface. Returns where it begins: the width of the
+ * image that is not covered. */
+double view_draw_sidebar(viewer *v);
+
+/* --- input.c ---------------------------------------------------------------------------------- */
+
+/* Gives an event to the interface, if that wants it, or to the image: a view_listener, of a viewer.
+ * The interface is laid out before and after, so that each event acts on what the last one left. */
+void view_take_event(void *v, const view_event *event);
 
 /* --- frame.c ---------------------------------------------------------------------------------- */
 

@@ -34,7 +34,8 @@ static bool open_library(base_error *error) {
 
 struct view_window {
     GLFWwindow *glfw;
-    view_state *state;
+    view_listener *listener;
+    void *to;
     int windowed[4]; /* before it filled the screen: x, y, width, height */
 };
 
@@ -45,9 +46,9 @@ static void on_error(int code, const char *text) {
     snprintf(last_complaint, sizeof last_complaint, "%s", text);
 }
 
-static view_state *state_of(GLFWwindow *glfw) {
+static void tell(GLFWwindow *glfw, view_event event) {
     const view_window *window = lib.glfwGetWindowUserPointer(glfw);
-    return window->state;
+    window->listener(window->to, &event);
 }
 
 /* Returns pixels per unit of the pointer's coordinates. */
@@ -62,8 +63,7 @@ static double pixels_a_unit(GLFWwindow *glfw) {
 
 static void on_move(GLFWwindow *glfw, double x, double y) {
     const double scale = pixels_a_unit(glfw);
-    view_handle(state_of(glfw),
-                &(view_event) { .kind = VIEW_MOVE, .x = x * scale, .y = y * scale });
+    tell(glfw, (view_event) { .kind = VIEW_MOVE, .x = x * scale, .y = y * scale });
 }
 
 static void on_button(GLFWwindow *glfw, int button, int action, int modifiers) {
@@ -72,15 +72,14 @@ static void on_button(GLFWwindow *glfw, int button, int action, int modifiers) {
     const view_button which = button == GLFW_MOUSE_BUTTON_LEFT    ? VIEW_LEFT
                               : button == GLFW_MOUSE_BUTTON_RIGHT ? VIEW_RIGHT
                                                                   : VIEW_MIDDLE;
-    view_handle(state_of(glfw),
-                &(view_event) { .kind = action == GLFW_PRESS ? VIEW_PRESS : VIEW_RELEASE,
-                                .button = which,
-                                .shift = modifiers & GLFW_MOD_SHIFT });
+    tell(glfw, (view_event) { .kind = action == GLFW_PRESS ? VIEW_PRESS : VIEW_RELEASE,
+                              .button = which,
+                              .shift = modifiers & GLFW_MOD_SHIFT });
 }
 
 static void on_scroll(GLFWwindow *glfw, double x, double y) {
     (void)x;
-    view_handle(state_of(glfw), &(view_event) { .kind = VIEW_SCROLL, .y = y });
+    tell(glfw, (view_event) { .kind = VIEW_SCROLL, .y = y });
 }
 
 static bool write_utf8(unsigned character, char text[5]) {
@@ -96,7 +95,7 @@ static bool write_utf8(unsigned character, char text[5]) {
 static void on_character(GLFWwindow *glfw, unsigned character) {
     char text[5] = "";
     if (character > ' ' && write_utf8(character, text))
-        view_handle(state_of(glfw), &(view_event) { .kind = VIEW_KEY, .text = text });
+        tell(glfw, (view_event) { .kind = VIEW_KEY, .text = text });
 }
 
 /* Returns the flying key by its position on the keyboard. */
@@ -119,6 +118,7 @@ static const char *name_of(int key) {
     } names[] = { { GLFW_KEY_F1, "F1" },
                   { GLFW_KEY_F5, "F5" },
                   { GLFW_KEY_F2, "F2" },
+                  { GLFW_KEY_F3, "F3" },
                   { GLFW_KEY_ENTER, "Enter" },
                   { GLFW_KEY_KP_ENTER, "Enter" },
                   { GLFW_KEY_F11, "F11" },
@@ -130,6 +130,7 @@ static const char *name_of(int key) {
                   { GLFW_KEY_PAGE_UP, "Page_Up" },
                   { GLFW_KEY_PAGE_DOWN, "Page_Down" },
                   { GLFW_KEY_HOME, "Home" },
+                  { GLFW_KEY_END, "End" },
                   { GLFW_KEY_TAB, "Tab" },
                   { GLFW_KEY_DELETE, "Delete" },
                   { GLFW_KEY_BACKSPACE, "Backspace" },
@@ -143,33 +144,32 @@ static const char *name_of(int key) {
 
 static void on_key(GLFWwindow *glfw, int key, int position, int action, int modifiers) {
     (void)position;
-    view_state *state = state_of(glfw);
     const bool shift = modifiers & GLFW_MOD_SHIFT, control = modifiers & GLFW_MOD_CONTROL;
     const char letter = flying_letter(key);
     const char *typed = lib.glfwGetKeyName(key, 0);
     if (control && action == GLFW_PRESS && typed && typed[0] >= 'a' && typed[0] <= 'z') {
         const char text[] = { 'C', 't', 'r', 'l', '+', (char)(typed[0] - 'a' + 'A'), '\0' };
-        view_handle(state, &(view_event) { .kind = VIEW_KEY, .text = text });
+        tell(glfw, (view_event) { .kind = VIEW_KEY, .text = text });
         return;
     }
     if (letter && action != GLFW_REPEAT && !(control && action == GLFW_PRESS))
-        view_handle(state, &(view_event) { .kind = action == GLFW_PRESS ? VIEW_HOLD : VIEW_FREE,
-                                           .letter = letter,
-                                           .shift = shift });
+        tell(glfw, (view_event) { .kind = action == GLFW_PRESS ? VIEW_HOLD : VIEW_FREE,
+                                  .letter = letter,
+                                  .shift = shift });
     const char *name = name_of(key);
     if (!name || action == GLFW_RELEASE)
         return;
     char text[32];
     snprintf(text, sizeof text, "%s%s", shift ? "Shift+" : "", name);
-    view_handle(state, &(view_event) { .kind = VIEW_KEY, .text = text });
+    tell(glfw, (view_event) { .kind = VIEW_KEY, .text = text });
 }
 
 /* Releases all keys when the focus is lost: their releases would go elsewhere, and the camera would
  * fly on. */
 static void on_focus(GLFWwindow *glfw, int focused) {
     if (!focused) {
-        view_handle(state_of(glfw), &(view_event) { .kind = VIEW_FREE });
-        view_handle(state_of(glfw), &(view_event) { .kind = VIEW_RELEASE });
+        tell(glfw, (view_event) { .kind = VIEW_FREE });
+        tell(glfw, (view_event) { .kind = VIEW_RELEASE });
     }
 }
 
@@ -179,15 +179,15 @@ static void on_drop(GLFWwindow *glfw, int count, const char **paths) {
     lib.glfwGetCursorPos(glfw, &x, &y);
     on_move(glfw, x, y);
     for (int i = 0; i < count; i++)
-        view_handle(state_of(glfw), &(view_event) { .kind = VIEW_DROP, .text = paths[i] });
+        tell(glfw, (view_event) { .kind = VIEW_DROP, .text = paths[i] });
 }
 
 static void on_damage(GLFWwindow *glfw) {
-    state_of(glfw)->requests.redraw = true;
+    tell(glfw, (view_event) { .kind = VIEW_DAMAGE });
 }
 
 static void on_close(GLFWwindow *glfw) {
-    state_of(glfw)->requests.quit = true;
+    tell(glfw, (view_event) { .kind = VIEW_ACT, .text = "Quit" });
 }
 
 static void listen(GLFWwindow *glfw) {
@@ -220,8 +220,8 @@ static GLFWwindow *create(const char *title, int width, int height) {
     return lib.glfwCreateWindow(width, height, title, NULL, NULL);
 }
 
-view_window *view_window_open(const char *title, int width, int height, view_state *state,
-                              base_error *error) {
+view_window *view_window_open(const char *title, int width, int height, view_listener *listener,
+                              void *to, base_error *error) {
     if (!open_library(error))
         return NULL;
     view_window *window = calloc(1, sizeof *window);
@@ -237,7 +237,8 @@ view_window *view_window_open(const char *title, int width, int height, view_sta
         free(window);
         return NULL;
     }
-    window->state = state;
+    window->listener = listener;
+    window->to = to;
     window->glfw = create(title, width, height);
     if (!window->glfw) {
         base_fail(error, NULL, "no window with OpenGL 4.5 (%s): lampion render draws to a file",

@@ -8,10 +8,13 @@
 
 typedef struct view_window view_window;
 
-/* Opens a window and makes its context current. Events go to `state`. Returns NULL on failure;
+/* Takes an event; `to` is what view_window_open was given. */
+typedef void view_listener(void *to, const view_event *event);
+
+/* Opens a window and makes its context current. Events go to the listener. Returns NULL on failure;
  * without a display the error suggests what to do instead. */
-view_window *view_window_open(const char *title, int width, int height, view_state *state,
-                              base_error *error);
+view_window *view_window_open(const char *title, int width, int height, view_listener *listener,
+                              void *to, base_error *error);
 void view_window_close(view_window *window);
 
 /* Disconnects from the display; before that, another window may be opened on the same

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # view.sh PART: lampion view in a window. session: by real input, checked step by step, by its state and images;
-# script, shadows, bounces, edit: what scripts do; refusals.
+# script, shadows, bounces, edit: what scripts do; sidebar: what the mouse does alone; refusals.
 set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
@@ -267,6 +267,66 @@ EDIT
         "$PROGRAM" render room.obj --lights "$lights" --size 32x18 -o "${lights%.*}-lit.png" || fail "--lights $lights: $?"
     done
     cmp edited-lit.png lampion-lights-0001-lit.png || fail "a screenshot and a file give other lights"
+}
+
+test_sidebar() {
+    # actions by the mouse alone, by a key and by a script: the same settings
+    # place NAME: prints where the heading or button is.
+    place() {
+        tr -d '\n' <state.json 2>/dev/null | sed -n "s/.*\"$1\": *\[ *\([0-9]*\)[^,]*, *\([0-9]*\).*/\1 \2/p"
+    }
+    seen() { [ -n "$(place "$1")" ]; }
+    click_on() {
+        until_true "seeing $1" seen "$1"
+        xdotool mousemove $(place "$1") click 1
+    }
+    # settings_of FILE: prints all that decides the image, and the selected light.
+    settings_of() {
+        sed '/"view":/,$d' "$1"
+        grep '"selected":' "$1"
+    }
+    sized="room.obj --lights lights.json --framing outside --eye 0,1,6 --target 0,1,0 --size 640x480 --samples 1"
+    # start FOLDER: opens a viewer, its sidebar folded as the window is narrow.
+    start() {
+        "$PROGRAM" view $sized --state state.json 2>view.err &
+        viewer=$!
+        trap 'kill $viewer 2>/dev/null || true' EXIT
+        until_true "opening" is value height 480
+        is value sidebar false || fail "a narrow window begins with the sidebar"
+    }
+    stop() {
+        xdotool key ctrl+q
+        wait $viewer || fail "quitting: $?: $(cat view.err)"
+        rm state.json
+    }
+
+    start
+    click_on Lampion # the title of the folded sidebar
+    until_true "the sidebar" is value sidebar true
+    click_on Lights
+    click_on "Add light"
+    until_true "adding a light by its button" is value selected 2
+    click_on "Brighten"
+    click_on Lights # folded again, so that what follows is not moved
+    click_on Shading
+    click_on "Next method"
+    until_true "another method by its button" is value method '"coefficients"'
+    xdotool mousemove 320 470 click 1 # a place of the sidebar without anything
+    is value selected 2 || fail "a click on the sidebar reaches the image"
+    settings_of state.json >by_button.txt
+    stop
+
+    start
+    xdotool mousemove 160 240 key n plus m
+    until_true "another method by its key" is value method '"coefficients"'
+    settings_of state.json >by_key.txt
+    stop
+
+    printf '0 move 160 240\n0.1 press "Add light"\n0.2 press "Brighten"\n0.3 press "Next method"\n0.5 key Ctrl+Q\n' >press.txt
+    "$PROGRAM" view $sized --script press.txt --state state.json || fail "the script ends in $?"
+    settings_of state.json >by_script.txt
+    diff by_button.txt by_key.txt || fail "buttons and keys differ"
+    diff by_key.txt by_script.txt || fail "keys and scripts differ"
 }
 
 test_refusals() {

@@ -142,12 +142,15 @@ static bool read_script(const char *text, view_script *script) {
 static void scripts_are_read_strictly(void **unused) {
     (void)unused;
     view_script script;
-    assert_true(read_script(
-        "# a demonstration\n0 move 10 20.5\n0.5 press left shift\n\n"
-        "1 release left # let go\n1 key ?\n2 hold w\n2 free w\n3 scroll -2\n"
-        "4 drop a file.binary  # gold\n4 type 1, 2\n5 size 320 200\n6 shot out.png\n7 key Ctrl+Q",
-        &script));
-    assert_int_equal(script.count, 12);
+    assert_true(
+        read_script("# a demonstration\n0 move 10 20.5\n0.5 press left shift\n\n"
+                    "1 release left # let go\n1 key ?\n2 hold w\n2 free w\n3 scroll -2\n"
+                    "4 drop a file.binary  # gold\n4 type 1, 2\n5 size 320 200\n6 shot out.png\n"
+                    "6 press \"Add light\"\n7 key Ctrl+Q",
+                    &script));
+    assert_int_equal(script.count, 13);
+    assert_int_equal(script.lines[11].event.kind, VIEW_ACT);
+    assert_string_equal(script.lines[11].event.text, "Add light");
     CHECK_NEAR(20.5, script.lines[0].event.y, 0);
     assert_true(script.lines[1].event.shift);
     assert_string_equal(script.lines[3].event.text, "?");
@@ -164,6 +167,9 @@ static void scripts_are_read_strictly(void **unused) {
                                        "1 key nothing",
                                        "1 jump",
                                        "1 press thumb",
+                                       "1 press \"Add light",
+                                       "1 press \"Add lights\"",
+                                       "1 press \"\"",
                                        "1 hold z",
                                        "2 key m\n1 key m",
                                        "1 size 0 5",
