@@ -241,6 +241,9 @@ static void take_event(view_state *s, const view_event *event) {
     case VIEW_ACT:
         act(s, event->text);
         break;
+    case VIEW_SET:
+        view_set_by_line(s, event->text);
+        break;
     case VIEW_DAMAGE:
         s->requests.redraw = true;
         break;

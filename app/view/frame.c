@@ -32,6 +32,11 @@ static void shade_as_before(const viewer *v, view_settings *settings) {
     settings->split = v->good->split;
     settings->shadows = v->good->shadows;
     settings->bounces = v->good->bounces;
+    if (strcmp(settings->scene, v->good->scene) != 0)
+        return;
+    memcpy(settings->environment, v->good->environment, sizeof v->good->environment);
+    settings->environment_rotation = v->good->environment_rotation;
+    settings->environment_strength = v->good->environment_strength;
 }
 
 /* Reverts settings that cannot be drawn, with a message that says why. */
@@ -131,6 +136,8 @@ bool view_draw_frame(viewer *v, bool *worked, base_error *error) {
         return true;
     *worked = true;
     show(v);
+    memmove(v->sidebar.ms, v->sidebar.ms + 1, sizeof v->sidebar.ms - sizeof *v->sidebar.ms);
+    v->sidebar.ms[VIEW_FRAMES_TOLD - 1] = (float)(1e3 * (view_window_clock() - began));
     if (first)
         v->divisor = 2;
     else if (moving)

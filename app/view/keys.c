@@ -115,9 +115,10 @@ static void rewind_time(view_state *s, int unused) {
 
 /* --- materials -------------------------------------------------------------------------------- */
 
-static const char *const materials[] = { "lambert:0.8",       "phong:50:0.8",     "ggx:0.1:0.9",
-                                         "ggx:0.35:0.04:0.5", "sgd:chrome-steel", "sgd:brass",
-                                         "sgd:blue-acrylic",  "sgd:red-fabric" };
+const char *const view_known_materials[] = {
+    "as in the scene",  "lambert:0.8", "phong:50:0.8",     "ggx:0.1:0.9",    "ggx:0.35:0.04:0.5",
+    "sgd:chrome-steel", "sgd:brass",   "sgd:blue-acrylic", "sgd:red-fabric", NULL
+};
 
 static void change_material(view_state *s, int step) {
     const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
@@ -129,10 +130,12 @@ static void change_material(view_state *s, int step) {
     }
     const char *name = s->world->materials[s->world->meshes[hit.mesh].material].name;
     const char *current = view_material_of(&s->now, name);
-    const char *choices[sizeof materials / sizeof *materials + 2] = { NULL };
+    const char *choices[sizeof view_known_materials / sizeof *view_known_materials + 1] = { NULL };
     int count = 1, at = 0;
-    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++)
-        choices[count++] = materials[i];
+    while (view_known_materials[count]) {
+        choices[count] = view_known_materials[count];
+        count++;
+    }
     if (s->dropped[0])
         choices[count++] = s->dropped;
     for (int i = 1; i < count; i++)
@@ -159,14 +162,17 @@ static void first_camera(view_state *s, int unused) {
     s->now.camera.near = s->now.camera.far = 0;
 }
 
-static void next_camera(view_state *s, int step) {
-    if (s->world->camera_count == 0) {
-        first_camera(s, 0);
-        return;
-    }
-    s->camera = (s->camera + step) % (int)s->world->camera_count;
-    s->now.camera = s->world->cameras[s->camera];
+void view_use_camera(view_state *s, int index) {
+    s->camera = index;
+    s->now.camera = s->world->cameras[index];
     view_say(s, "Camera: %s", s->now.camera.name);
+}
+
+static void next_camera(view_state *s, int step) {
+    if (s->world->camera_count > 0)
+        view_use_camera(s, (s->camera + step) % (int)s->world->camera_count);
+    else
+        first_camera(s, 0);
 }
 
 static void toggle_help(view_state *s, int unused) {
@@ -208,6 +214,7 @@ static void step_back(view_state *s, int unused) {
 enum {
     REQUEST_QUIT,
     REQUEST_SHOT,
+    REQUEST_COMMAND,
     REQUEST_RECORD,
     REQUEST_RELOAD,
     REQUEST_RESTART,
@@ -216,9 +223,9 @@ enum {
 };
 
 static void request(view_state *s, int what) {
-    bool *const requests[] = { &s->requests.quit,   &s->requests.shot,    &s->requests.record,
-                               &s->requests.reload, &s->requests.restart, &s->requests.fullscreen,
-                               &s->requests.save };
+    bool *const requests[] = { &s->requests.quit,       &s->requests.shot,   &s->requests.command,
+                               &s->requests.record,     &s->requests.reload, &s->requests.restart,
+                               &s->requests.fullscreen, &s->requests.save };
     *requests[what] = true;
 }
 
@@ -254,7 +261,7 @@ const view_key view_keys[] = {
     { "t", "T", "material of the object pointed at", change_material, 1, "Next material" },
     { "T", NULL, NULL, change_material, -1, "Previous material" },
 
-    { NULL, "Values and files", NULL, NULL, 0, NULL },
+    { NULL, "Materials, files", NULL, NULL, 0, NULL },
     { "Enter", "Enter", "values of the light, of materials", view_toggle_panel, 0, "Values" },
     { "Ctrl+Z", "Ctrl Z  Ctrl Y", "undo, redo lights and materials", view_undo, -1, "Undo" },
     { "Ctrl+Y", NULL, NULL, view_undo, 1, "Redo" },
@@ -271,6 +278,9 @@ const view_key view_keys[] = {
     { "Tab", "Tab", "select the next", view_select_light, 1, "Next light" },
     { "Shift+Tab", NULL, NULL, view_select_light, -1, "Previous light" },
     { "n", "N", "new, over what is pointed at", view_add_light, 0, "Add light" },
+    { "Ctrl+D", "Ctrl D", "a copy beside the selected", view_copy_light, 0, "Copy light" },
+    { "Ctrl+M", "Ctrl M", "mute the selected, or not", view_mute_light, 0, "Mute" },
+    { "Ctrl+L", "Ctrl L", "mute all others, or not", view_solo_light, 0, "Solo" },
     { "Delete", "Delete", "remove the selected", view_remove_light, 0, "Delete light" },
     { "Backspace", NULL, NULL, view_remove_light, 0, NULL },
     { "[", "[  ]", "smaller, larger (same power)", view_resize_lights, -1, "Smaller" },
@@ -297,6 +307,8 @@ const view_key view_keys[] = {
     { NULL, "Window", NULL, NULL, 0, NULL },
     { "F12", "F12  P", "screenshot with its settings", request, REQUEST_SHOT, "Screenshot" },
     { "p", NULL, NULL, request, REQUEST_SHOT, NULL },
+    { "Ctrl+C", "Ctrl C", "screenshot, and the command for it", request, REQUEST_COMMAND,
+      "Copy command" },
     { "r", "R", "record an image sequence", request, REQUEST_RECORD, "Record" },
     { "i", "I", "statistics on, off", toggle_overlay, 0, "Statistics" },
     { "F5", "F5", "read the scene again", request, REQUEST_RELOAD, "Read again" },

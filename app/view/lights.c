@@ -9,8 +9,9 @@
 #define SIZE_STEP      1.15f
 #define POWER_STEP     1.25f
 #define HUE_STEP       (1.0f / 12)
-#define NEW_IRRADIANCE 0.4f /* that a new light gives the scene's bounding sphere */
-#define FRAMED_RADIUS  0.1f /* of the scene's diagonal, at least */
+#define NEW_IRRADIANCE 0.4f  /* that a new light gives the scene's bounding sphere */
+#define COPY_DISTANCE  0.03f /* of the scene's diagonal, at least */
+#define FRAMED_RADIUS  0.1f  /* of the scene's diagonal, at least */
 
 static float scene_diagonal(const scene *world) {
     return fmaxf(vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum))), 1e-6f);
@@ -128,14 +129,24 @@ static view_ray pointer_ray(const view_state *s) {
                             outside ? 0.5 * s->now.height : s->y);
 }
 
-/* Adds a light of the selected one's kind if that has a position, else a sphere: over the surface
- * under the pointer, or at the distance of the camera's target. */
-void view_add_light(view_state *s, int unused) {
-    (void)unused;
+/* Adds a light, and selects it. */
+static void append(view_state *s, const scene_light *light) {
     if (s->now.light_count == SCENE_LIGHTS_MAX) {
         view_say(s, "There are %d lights already: no more fit", SCENE_LIGHTS_MAX);
         return;
     }
+    s->selected = (int)s->now.light_count;
+    s->muted[s->now.light_count] = false;
+    s->numbers[s->now.light_count] = s->next_number++;
+    s->now.lights[s->now.light_count++] = *light;
+    s->lights_edited = true;
+    s->drag = VIEW_DRAG_NONE;
+}
+
+/* Adds a light of the selected one's kind if that has a position, else a sphere: over the surface
+ * under the pointer, or at the distance of the camera's target. */
+void view_add_light(view_state *s, int unused) {
+    (void)unused;
     const view_ray ray = pointer_ray(s);
     const view_hit hit = view_pick_surface(&ray, s->world);
     scene_light light = { .emitter = new_light(s, scene_light_kind_default) };
@@ -147,11 +158,20 @@ void view_add_light(view_state *s, int unused) {
     if (hit.mesh >= 0)
         position = vec_add(position, vec_scale(hit.normal, 3 * scene_light_extent(&light.emitter)));
     light.emitter.position = position;
-    s->selected = (int)s->now.light_count;
-    s->numbers[s->now.light_count] = s->next_number++;
-    s->now.lights[s->now.light_count++] = light;
-    s->lights_edited = true;
-    s->drag = VIEW_DRAG_NONE;
+    append(s, &light);
+}
+
+void view_copy_light(view_state *s, int unused) {
+    (void)unused;
+    if (!is_selected(s))
+        return;
+    scene_light light = s->now.lights[s->selected];
+    light.glow = light.glows_both = 0; /* the mesh that it may stand for is there once */
+    light.hidden = 0;
+    if (scene_light_has(&light, SCENE_LIGHT_POSITION))
+        light.emitter.position.x += fmaxf(2.5f * scene_light_extent(&light.emitter),
+                                          COPY_DISTANCE * scene_diagonal(s->world));
+    append(s, &light);
 }
 
 void view_remove_light(view_state *s, int unused) {
@@ -162,6 +182,7 @@ void view_remove_light(view_state *s, int unused) {
     memmove(&s->now.lights[index], &s->now.lights[index + 1], after * sizeof *s->now.lights);
     memset(&s->now.lights[s->now.light_count], 0, sizeof *s->now.lights);
     memmove(&s->numbers[index], &s->numbers[index + 1], after * sizeof *s->numbers);
+    memmove(&s->muted[index], &s->muted[index + 1], after * sizeof *s->muted);
     s->selected = -1;
     s->drag = VIEW_DRAG_NONE;
     s->lights_edited = true;
@@ -169,17 +190,32 @@ void view_remove_light(view_state *s, int unused) {
 
 /* --- kind, direction, view -------------------------------------------------------------------- */
 
-void view_change_kind(view_state *s, int step) {
-    if (!is_selected(s))
-        return;
-    lmp_light *light = &s->now.lights[s->selected].emitter;
+void view_make_kind(view_state *s, int index, int kind) {
+    lmp_light *light = &s->now.lights[index].emitter;
     const lmp_vec3 position = light->position;
-    const int kind = ((int)light->kind + step + SCENE_LIGHT_KIND_COUNT) % SCENE_LIGHT_KIND_COUNT;
     *light = new_light(s, (lmp_light_kind)kind);
     light->position = position; /* kept for a kind that has a position again */
     s->drag = VIEW_DRAG_NONE;
     s->lights_edited = true;
-    view_say(s, "Light %d: %s", s->selected, scene_light_kinds[kind].name);
+    view_say(s, "Light %d: %s", index, scene_light_kinds[kind].name);
+}
+
+void view_change_kind(view_state *s, int step) {
+    if (!is_selected(s))
+        return;
+    const int kind = (int)s->now.lights[s->selected].emitter.kind + step;
+    view_make_kind(s, s->selected, (kind + SCENE_LIGHT_KIND_COUNT) % SCENE_LIGHT_KIND_COUNT);
+}
+
+void view_mute_light(view_state *s, int unused) {
+    (void)unused;
+    if (is_selected(s))
+        s->muted[s->selected] = !s->muted[s->selected];
+}
+
+void view_solo_light(view_state *s, int unused) {
+    (void)unused;
+    s->solo = !s->solo && is_selected(s);
 }
 
 void view_direct_light(view_state *s, int unused) {

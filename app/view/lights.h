@@ -13,10 +13,21 @@ void view_fade_lights(view_state *state, int sign);
 
 void view_select_light(view_state *state, int step);
 
-/* Adds a light over the surface under the pointer; the next two act on the selected light only. */
+/* Adds a light over the surface under the pointer; the next ones act on the selected light only. */
 void view_add_light(view_state *state, int unused);
+
+/* Adds a copy of the selected light beside it. */
+void view_copy_light(view_state *state, int unused);
 void view_remove_light(view_state *state, int unused);
 void view_change_kind(view_state *state, int step);
+
+/* Makes a light another of that kind, at the same place. */
+void view_make_kind(view_state *state, int index, int kind);
+
+/* Mutes the selected light, or not; in the other function, all the others. Muted lights are kept,
+ * but neither light nor are drawn. */
+void view_mute_light(view_state *state, int unused);
+void view_solo_light(view_state *state, int unused);
 
 /* Aims a spot light at the point under the pointer, or lets a distant light come from there. */
 void view_direct_light(view_state *state, int unused);

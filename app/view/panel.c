@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/panel.h"
-#include "app/base/file_json.h"
 #include "app/scene/world.h"
 
 #include <stdio.h>
@@ -43,42 +42,8 @@ static void describe_light(const view_state *s, int row, view_row *to) {
     }
 }
 
-/* Returns the light as JSON, with one member replaced by the value `typed`, such as "0.2" or "1, 2,
- * 3", and without other members that set the same value; NULL if `typed` is not a value. */
-static json_t *parse_light(const scene_light *light, const double origin[3],
-                           const scene_light_member *member, const char *typed, base_error *error) {
-    char numbers[VIEW_TYPED_SIZE + 2];
-    json_error_t wrong;
-    snprintf(numbers, sizeof numbers, strchr(typed, ',') ? "[%s]" : "%s", typed);
-    json_t *const value = file_json_load(numbers, strlen(numbers), &wrong);
-    if (!value) {
-        base_fail(error, typed, "is neither a number nor three numbers separated by commas");
-        return NULL;
-    }
-    json_t *object = scene_light_to_json(light, origin);
-    for (const scene_light_member *m = scene_light_kinds[light->emitter.kind].members; m->name; m++)
-        if (m->offset == member->offset)
-            json_object_del(object, m->name);
-    object = file_json_with(object, member->name, value);
-    if (!object)
-        base_fail(error, NULL, "out of memory");
-    return object;
-}
-
-/* Sets a member to the typed value, which is accepted or rejected as in a file. */
 static bool apply_light(view_state *s, int row, const char *typed, base_error *error) {
-    scene_light *light = &s->now.lights[s->selected], changed;
-    scene_light_error wrong;
-    json_t *object = parse_light(light, s->now.origin, &light_members(s)[row], typed, error);
-    const bool ok = object && scene_light_from_json(object, s->now.origin, &changed, &wrong);
-    if (object && !ok)
-        base_fail(error, "the light", "%s", wrong.text + strspn(wrong.text, ". "));
-    json_decref(object);
-    if (!ok)
-        return false;
-    *light = changed;
-    s->lights_edited = true;
-    return true;
+    return view_set_light(s, (size_t)s->selected, light_members(s)[row].name, typed, error);
 }
 
 /* --- materials -------------------------------------------------------------------------------- */

@@ -24,11 +24,11 @@ typedef struct words {
 /* Whether the second word is the last one, with blanks in it. */
 static bool takes_the_rest(const char *what, const char *next) {
     return strcmp(what, "drop") == 0 || strcmp(what, "shot") == 0 || strcmp(what, "type") == 0 ||
-           next[0] == '"';
+           strcmp(what, "set") == 0 || next[0] == '"';
 }
 
-/* Splits a line at blanks; the last word of drop, shot and type, and one in quotes, may contain
- * some. */
+/* Splits a line at blanks; the last word of drop, shot, type and set, and one in quotes, may
+ * contain some. */
 static void split_words(char *line, words *w) {
     *w = (words) { .count = 0 };
     for (size_t length = strlen(line); length > 0 && strchr(" \t", line[length - 1]); length--)
@@ -110,8 +110,11 @@ static bool read_event(const words *w, view_script_line *line) {
         line->kind = VIEW_SCRIPT_SHOT;
         return image_format_of(line->text) == IMAGE_PNG;
     }
-    e->kind = what[0] == 'k' ? VIEW_KEY : what[0] == 'd' ? VIEW_DROP : VIEW_TYPE;
-    if (strcmp(what, "drop") == 0 || strcmp(what, "type") == 0)
+    e->kind = what[0] == 'k'   ? VIEW_KEY
+              : what[0] == 'd' ? VIEW_DROP
+              : what[0] == 's' ? VIEW_SET
+                               : VIEW_TYPE;
+    if (strcmp(what, "drop") == 0 || strcmp(what, "type") == 0 || strcmp(what, "set") == 0)
         return true;
     for (const view_key *key = view_keys; key->key || key->shown; key++)
         if (key->key && strcmp(key->key, line->text) == 0)

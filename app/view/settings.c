@@ -401,6 +401,12 @@ static bool check_names(const view_settings *s, const char *shot, const view_sho
     return true;
 }
 
+bool view_shot_confines(const view_settings *s, const char *path) {
+    static const view_shot_options strict = { .scene = NULL };
+    base_error error;
+    return check_names(s, path, &strict, &error);
+}
+
 bool view_read_shot(const char *path, const view_shot_options *options, view_settings *s,
                     base_error *error) {
     memset(s, 0, view_settings_size(s));

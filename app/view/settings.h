@@ -99,6 +99,10 @@ typedef struct view_shot_options {
 bool view_read_shot(const char *path, const view_shot_options *options, view_settings *settings,
                     base_error *error);
 
+/* Whether a screenshot at this path may name all files that the settings name, without
+ * allow_paths. */
+bool view_shot_confines(const view_settings *settings, const char *path);
+
 /* The option rows of a command that reads screenshots: how many pixels one may request, by default
  * IMAGE_READ_PIXELS, and whether it may name any file. */
 #define VIEW_SHOT_OPTION_ROWS(shot)                                                                \

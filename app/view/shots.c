@@ -65,6 +65,20 @@ bool view_take_shot(viewer *v, const char *path, base_error *error) {
     return true;
 }
 
+/* The scene and its files are named as they were to the viewer, from whose folder it runs. */
+bool view_copy_command(viewer *v, base_error *error) {
+    char name[64], command[256];
+    if (!find_name("lampion", ".png", name, sizeof name))
+        return base_fail(error, NULL, "There are too many screenshots here");
+    if (!write_shot(v, v->drawn, name, error))
+        return false;
+    snprintf(command, sizeof command, "lampion render --from %s%s -o again.png", name,
+             view_shot_confines(v->drawn, name) ? "" : " --allow-paths");
+    view_window_copy(command);
+    view_say(&v->state, "Copied: %s", command);
+    return true;
+}
+
 void view_toggle_recording(viewer *v) {
     v->state.recording = !v->state.recording;
     if (!v->state.recording) {

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* sidebar.c - every action as a button. */
+/* sidebar.c - every value as a field, and every action as a button. */
+#include "app/render/renderer/bounces.h"
+#include "app/scene/vector.h"
 #include "app/view/ui.h"
 #include "app/view/viewer.h"
 
@@ -38,7 +40,287 @@ static const view_key *next_heading(const view_key *row) {
     return row;
 }
 
+/* --- values ----------------------------------------------------------------------------------- */
+
+static void set(view_state *s, const char *path, const char *value) {
+    base_error error;
+    if (!view_set(s, path, value, &error))
+        view_say(s, "%s", error.text);
+}
+
+/* Sets numbers, with the digits that restore them exactly. */
+static void set_numbers(view_state *s, const char *path, const float *numbers, int count) {
+    char text[128];
+    size_t used = 0;
+    for (int k = 0; k < count; k++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%.9g", k ? ", " : "",
+                                 (double)numbers[k]);
+    set(s, path, text);
+}
+
+static void put_number(view_state *s, const char *name, const char *path, float value, float most,
+                       float step) {
+    if (ui_numbers(name, &value, 1, 0, most, step))
+        set_numbers(s, path, &value, 1);
+}
+
+static void put_flag(view_state *s, const char *name, const char *path, bool on) {
+    if (ui_flag(name, &on))
+        set(s, path, on ? "true" : "false");
+}
+
+static void put_integer(view_state *s, const char *name, const char *path, int value, int least,
+                        int most) {
+    if (ui_integer(name, &value, least, most)) {
+        const float number = (float)value;
+        set_numbers(s, path, &number, 1);
+    }
+}
+
+static void put_choice(view_state *s, const char *name, const char *path,
+                       const char *const *choices, int chosen) {
+    if (ui_choice(name, choices, &chosen))
+        set(s, path, choices[chosen]);
+}
+
+/* Whether a name has what is looked for in it, whatever the case of its letters. */
+static bool is_found(const view_sidebar *bar, const char *name) {
+    return strcasestr(name, bar->find) != NULL;
+}
+
+/* --- camera, materials, time ------------------------------------------------------------------ */
+
+static void put_camera(viewer *v) {
+    view_state *s = &v->state;
+    char item[SCENE_NAME_SIZE + 32], index[24];
+    if (s->world->camera_count > 0) {
+        ui_list_begin("cameras", s->world->camera_count < 5 ? (int)s->world->camera_count : 5);
+        for (size_t i = 0; i < s->world->camera_count; i++) {
+            snprintf(item, sizeof item, "%zu %s##camera", i, s->world->cameras[i].name);
+            snprintf(index, sizeof index, "%zu", i);
+            if (ui_item(item, i == (size_t)s->camera))
+                set(s, "view/camera", index);
+        }
+        ui_list_end();
+    }
+    put_number(s, "fov", "camera/fov", s->now.camera.fov, 3.1f, 0.005f);
+}
+
+static void put_materials(viewer *v) {
+    view_state *s = &v->state;
+    view_sidebar *bar = &v->sidebar;
+    const int count = (int)s->world->material_count;
+    char item[SCENE_NAME_SIZE + 16], path[SCENE_NAME_SIZE + 16], typed[VIEW_MATERIAL_SIZE];
+    if (count == 0)
+        return;
+    bar->material = bar->material < count ? bar->material : 0;
+    ui_line("find", bar->find, sizeof bar->find, true);
+    ui_list_begin("materials", count < 6 ? count : 6);
+    for (int i = 0; i < count; i++) {
+        const char *name = s->world->materials[i].name;
+        snprintf(item, sizeof item, "%s##%d", name[0] ? name : "(no name)", i);
+        if (is_found(bar, name) && ui_item(item, i == bar->material))
+            bar->material = i;
+    }
+    ui_list_end();
+    const char *name = s->world->materials[bar->material].name;
+    const char *given = view_material_of(&s->now, name), *const *known = view_known_materials;
+    snprintf(path, sizeof path, "materials/%s", name);
+    snprintf(typed, sizeof typed, "%s", given ? given : "");
+    if (ui_line("replaced by", typed, sizeof typed, false))
+        set(s, path, typed);
+    int chosen = 0;
+    for (int i = 1; given && known[i]; i++)
+        chosen = strcmp(given, known[i]) == 0 ? i : chosen;
+    if (ui_choice("known ones", known, &chosen))
+        set(s, path, chosen == 0 ? "" : known[chosen]);
+}
+
+static void put_time(viewer *v) {
+    view_state *s = &v->state;
+    const char *paths[VIEW_PATHS_MAX + 1] = { NULL };
+    memcpy(paths, s->path_names, (size_t)s->path_count * sizeof *paths);
+    put_choice(s, "path", "view/path", paths, s->path);
+    put_number(s, "seconds", "view/seconds", (float)s->seconds, 1e6f, 0.02f);
+    put_flag(s, "playing", "view/playing", s->playing);
+}
+
+/* --- shading ---------------------------------------------------------------------------------- */
+
+static void put_side(view_state *s, int side) {
+    const view_shading *shading = &s->now.shading[side];
+    const bool two = view_sides(&s->now) == 2;
+    char path[32], name[32];
+    if (two)
+        ui_text(side ? "right" : "left");
+    snprintf(name, sizeof name, "method##%d", side);
+    snprintf(path, sizeof path, "looks/%d/method", side);
+    put_choice(s, name, path, method_names(), (int)shading->method);
+    snprintf(name, sizeof name, "bands##%d", side);
+    snprintf(path, sizeof path, "looks/%d/bands", side);
+    put_integer(s, name, path, shading->bands, 1,
+                method_table[shading->method].bands_max[DEVICE_AUTO]);
+    snprintf(name, sizeof name, "filter##%d", side);
+    snprintf(path, sizeof path, "looks/%d/window", side);
+    put_choice(s, name, path, method_window_names(), (int)shading->window);
+}
+
+static void put_shading(viewer *v) {
+    view_state *s = &v->state;
+    char around[VIEW_PATH_SIZE];
+    for (int side = 0; side < view_sides(&s->now); side++)
+        put_side(s, side);
+    float stops = log2f(s->now.exposure);
+    if (ui_numbers("exposure, stops", &stops, 1, -30, 30, 0.02f)) {
+        const float exposure = exp2f(stops);
+        set_numbers(s, "exposure", &exposure, 1);
+    }
+    put_choice(s, "tone curve", "tone", image_tone_names(), s->now.tone);
+    put_flag(s, "shadows", "shadows", s->now.shadows);
+    put_integer(s, "bounces", "bounces", s->now.bounces, 0, TRANSFER_BOUNCES_MAX);
+    put_choice(s, "ground", "ground", environment_ground_names, s->now.ground);
+    snprintf(around, sizeof around, "%s", s->now.environment);
+    if (ui_line("environment", around, sizeof around, false))
+        set(s, "environment/name", around);
+    float degrees = s->now.environment_rotation;
+    if (ui_numbers("rotation", &degrees, 1, -360, 360, 1))
+        set_numbers(s, "environment/rotation", &degrees, 1);
+    put_number(s, "strength", "environment/strength", s->now.environment_strength,
+               (float)ENVIRONMENT_STRENGTH_MAX, 0.01f);
+}
+
+static void put_compare(viewer *v) {
+    view_state *s = &v->state;
+    put_choice(s, "image", "split", view_split_names, (int)s->now.split);
+    put_number(s, "divider", "divider", s->now.divider, 1, 0.002f);
+}
+
+/* --- lights ----------------------------------------------------------------------------------- */
+
+/* Puts a color in two parts: what is picked, and how bright the brightest channel is. */
+static void put_color(view_state *s, const char *name, const char *path, const float *value) {
+    const float most = fmaxf(value[0], fmaxf(value[1], value[2])), by = most > 0 ? 1 / most : 0;
+    float tint[3] = { by * value[0], by * value[1], by * value[2] }, numbers[3];
+    char hidden[64];
+    snprintf(hidden, sizeof hidden, "##tint of %s", name);
+    memcpy(numbers, value, sizeof numbers);
+    if (ui_tint(hidden, tint)) {
+        for (int k = 0; k < 3; k++)
+            numbers[k] = tint[k] * (most > 0 ? most : 1);
+        set_numbers(s, path, numbers, 3);
+    } else if (ui_numbers(name, numbers, 3, 0, SCENE_COLOR_MAX, 0.005f * (most > 0 ? most : 1))) {
+        set_numbers(s, path, numbers, 3);
+    }
+}
+
+/* Puts numbers in the units of the file: a member may give another quantity than is kept. */
+static void put_member(view_state *s, const scene_light_member *m, float diagonal) {
+    char path[64];
+    lmp_light light = s->now.lights[s->selected].emitter;
+    const float unit = m->convert ? m->convert(&light, 1) : 1;
+    const int count = scene_light_count(&light, m);
+    float numbers[3], *const value = scene_light_value(&light, m);
+    snprintf(path, sizeof path, "lights/%d/%s", s->selected, m->name);
+    if (m->type == SCENE_LIGHT_FLAG)
+        put_flag(s, m->name, path, *scene_light_flag(&light, m));
+    if (m->type == SCENE_LIGHT_FLAG || m->type == SCENE_LIGHT_CORNERS)
+        return;
+    for (int k = 0; k < count; k++)
+        numbers[k] =
+            value[k] / unit + (m->type == SCENE_LIGHT_POSITION ? (float)s->now.origin[k] : 0);
+    const float size = fmaxf(fabsf(numbers[0]), 1e-3f * diagonal), far = LMP_LENGTH_MAX;
+    bool changed = false;
+    switch (m->type) {
+    case SCENE_LIGHT_COLOR:
+        put_color(s, m->name, path, numbers);
+        break;
+    case SCENE_LIGHT_RADIUS:
+        changed = ui_numbers(m->name, numbers, count, 1e-6f * diagonal, far, 0.01f * size);
+        break;
+    case SCENE_LIGHT_ANGLE:
+        changed = ui_numbers(m->name, numbers, count, 0, PI, 0.005f);
+        break;
+    case SCENE_LIGHT_DIRECTION:
+        changed = ui_numbers(m->name, numbers, count, -1, 1, 0.005f);
+        break;
+    default:
+        changed = ui_numbers(m->name, numbers, count, -far, far, 0.002f * diagonal);
+        break;
+    }
+    if (changed)
+        set_numbers(s, path, numbers, count);
+}
+
+static void put_lights(viewer *v) {
+    view_state *s = &v->state;
+    const char *kinds[SCENE_LIGHT_KIND_COUNT + 1] = { NULL };
+    const int count = (int)s->now.light_count;
+    const lmp_vec3 lo = vec_load(s->world->minimum), hi = vec_load(s->world->maximum);
+    char item[96], path[32];
+    for (int i = 0; i < SCENE_LIGHT_KIND_COUNT; i++)
+        kinds[i] = scene_light_kinds[i].name;
+    if (count > 0) {
+        ui_list_begin("lights", count < 6 ? count : 6);
+        for (int i = 0; i < count; i++) {
+            snprintf(item, sizeof item, "%d %s%s##light", i, kinds[s->now.lights[i].emitter.kind],
+                     s->muted[i] ? ", muted" : "");
+            if (ui_item(item, i == s->selected))
+                s->selected = i;
+        }
+        ui_list_end();
+    }
+    if (s->selected < 0)
+        return;
+    snprintf(path, sizeof path, "lights/%d/kind", s->selected);
+    put_choice(s, "kind", path, kinds, (int)s->now.lights[s->selected].emitter.kind);
+    const lmp_light_kind kind = s->now.lights[s->selected].emitter.kind;
+    for (const scene_light_member *m = scene_light_kinds[kind].members; m->name; m++)
+        put_member(s, m, fmaxf(vec_length(vec_sub(hi, lo)), 1e-6f));
+}
+
+/* --- statistics ------------------------------------------------------------------------------- */
+
+static void put_window(viewer *v) {
+    const render_times *t = &v->told.statistics.times;
+    const struct {
+        const char *name;
+        double ms;
+    } passes[] = { { "geometry", t->surfaces }, { "shading", t->shade },
+                   { "shadows", t->shadow },    { "bounces", t->bounces },
+                   { "transfer", t->transfer }, { "window", 1e3 * v->told.show_seconds } };
+    char text[64];
+    float most = 1;
+    for (int i = 0; i < VIEW_FRAMES_TOLD; i++)
+        most = fmaxf(most, v->sidebar.ms[i]);
+    snprintf(text, sizeof text, "ms of the last frames, up to %.0f", (double)most);
+    ui_graph(text, v->sidebar.ms, VIEW_FRAMES_TOLD, most);
+    for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
+        snprintf(text, sizeof text, "%s %.1f ms", passes[i].name, passes[i].ms);
+        if (passes[i].ms > 0)
+            ui_text(text);
+    }
+}
+
 /* --- all of it -------------------------------------------------------------------------------- */
+
+/* What is under a heading above its buttons. */
+static const struct {
+    const char *heading;
+    void (*put)(viewer *v);
+} contents[] = {
+    { "Camera", put_camera },   { "Shading", put_shading }, { "Materials, files", put_materials },
+    { "Compare", put_compare }, { "Lights", put_lights },   { "Time", put_time },
+    { "Window", put_window }
+};
+
+static void put_section(viewer *v, const view_key *heading) {
+    if (!ui_section(heading->shown))
+        return;
+    for (size_t i = 0; i < sizeof contents / sizeof *contents; i++)
+        if (strcmp(contents[i].heading, heading->shown) == 0)
+            contents[i].put(v);
+    put_buttons(&v->state, heading);
+}
 
 double view_draw_sidebar(viewer *v) {
     view_state *s = &v->state;
@@ -52,8 +334,7 @@ double view_draw_sidebar(viewer *v) {
     s->sidebar = open;
     if (seen)
         for (const view_key *row = view_keys; row->shown; row = next_heading(row))
-            if (ui_section(row->shown))
-                put_buttons(s, row);
+            put_section(v, row);
     ui_sidebar_end();
     return open ? width - wide : width;
 }

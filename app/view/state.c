@@ -55,6 +55,8 @@ void view_put_lights(view_state *s, const scene_light *lights, size_t count) {
     for (size_t i = 0; i < count; i++)
         s->numbers[i] = i;
     s->next_number = count;
+    memset(s->muted, 0, sizeof s->muted);
+    s->solo = false;
     s->lights_edited = true;
     s->selected = -1;
     s->drag = VIEW_DRAG_NONE;
@@ -168,6 +170,7 @@ void view_undo(view_state *s, int step) {
         return;
     }
     s->lights_edited = true;
+    memset(s->muted, 0, sizeof s->muted);
     if (s->selected >= (int)s->now.light_count)
         s->selected = -1;
     s->drag = VIEW_DRAG_NONE;
@@ -175,11 +178,23 @@ void view_undo(view_state *s, int step) {
 
 /* --- what is shown ---------------------------------------------------------------------------- */
 
+/* Turns a light off. */
+static void mute(scene_light *light) {
+    lmp_light *e = &light->emitter;
+    for (const scene_light_member *m = scene_light_kinds[e->kind].members; m->name; m++)
+        if (m->type == SCENE_LIGHT_COLOR)
+            memset(scene_light_value(e, m), 0, 3 * sizeof(float));
+    light->hidden = 1;
+}
+
 void view_shown(const view_state *s, view_settings *shown) {
     memcpy(shown, &s->now, view_settings_size(&s->now));
     if (s->seconds > 0)
         for (size_t i = 0; i < shown->light_count; i++)
             animation_move(s->paths[s->path], s->numbers[i], s->seconds, &shown->lights[i]);
+    for (size_t i = 0; i < shown->light_count; i++)
+        if (s->solo && s->selected >= 0 ? i != (size_t)s->selected : s->muted[i])
+            mute(&shown->lights[i]);
 }
 
 int view_side(const view_state *s) {

@@ -21,6 +21,7 @@ typedef enum view_event_kind {
     VIEW_DROP,    /* a file, dropped at the pointer */
     VIEW_TYPE,    /* the characters of a text, one after the other, as keys */
     VIEW_ACT,     /* an action, by its name */
+    VIEW_SET,     /* a value, by a line for view_set_by_line */
     VIEW_DAMAGE,  /* the window must be drawn again */
     VIEW_SIZE     /* the image has x times y pixels; none: it is not visible */
 } view_event_kind;
@@ -33,7 +34,7 @@ typedef struct view_event {
     view_button button;
     bool shift;       /* held, with a button or a held key */
     char letter;      /* of VIEW_HOLD and VIEW_FREE */
-    const char *text; /* the key, the action, the file, or what is typed */
+    const char *text; /* the key, the action, the file, the value, or what is typed */
 } view_event;
 
 /* --- the state -------------------------------------------------------------------------------- */
@@ -41,7 +42,7 @@ typedef struct view_event {
 /* What the window is asked to do: the state machine sets requests, and whoever fulfills one clears
  * it. */
 typedef struct view_requests {
-    bool quit, shot, record, reload, restart, fullscreen, expose, redraw, save;
+    bool quit, shot, command, record, reload, restart, fullscreen, expose, redraw, save;
 } view_requests;
 
 typedef enum view_drag {
@@ -82,6 +83,7 @@ typedef struct view_state {
     bool playing;
     double seconds;                                /* of the animation */
     size_t numbers[SCENE_LIGHTS_MAX], next_number; /* for animation_move, one per light */
+    bool muted[SCENE_LIGHTS_MAX], solo; /* solo: but for the selected one, all lights are muted */
     bool lights_edited;
     view_history history;
     int selected; /* a light, or -1 */
@@ -143,6 +145,20 @@ bool view_replace_material(view_state *state, const char *name, const char *repl
 /* Returns the index of the material under the pointer, or 0. */
 int view_material_at_pointer(const view_state *state);
 
+/* --- set.c ------------------------------------------------------------------------------------ */
+
+/* Sets a value to what is typed, by its path in the state's JSON: "looks/0/bands",
+ * "materials/NAME", "view/selected", "lights/0/radius". The value is checked as in a file. */
+bool view_set(view_state *state, const char *path, const char *typed, base_error *error);
+bool view_set_light(view_state *state, size_t index, const char *name, const char *typed,
+                    base_error *error);
+
+/* Does so by a line with the path and the value; shows a message if that cannot be. */
+void view_set_by_line(view_state *state, const char *line);
+
+/* Shows through one of the scene's cameras. */
+void view_use_camera(view_state *state, int index);
+
 /* --- messages --------------------------------------------------------------------------------- */
 
 /* Shows a message for some seconds. */
@@ -164,6 +180,9 @@ typedef struct view_key {
     const char *name; /* on the button, and in scripts; NULL: that of an earlier row */
 } view_key;
 extern const view_key view_keys[]; /* ended by a row of NULLs */
+
+/* The materials of the key T: the scene's own, some others, then NULL. */
+extern const char *const view_known_materials[];
 
 /* Returns the action of that name, or NULL. */
 const view_key *view_find_action(const char *name);

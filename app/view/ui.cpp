@@ -3,6 +3,8 @@
  * would be linked to GLFW and would not see the events of scripts. */
 #include "app/view/ui.h"
 
+#include "app/image/srgb.h"
+
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -42,6 +44,8 @@ const char *const fonts[] = {
 
 struct interface {
     bool draws;
+    void (*copy)(const char *text);
+    const char *(*paste)(void);
     double scale = 0;
     std::bitset<IM_UNICODE_CODEPOINT_MAX + 1> spelled; /* characters of all texts so far */
     bool complete = false;                             /* whether the font has those that exist */
@@ -131,10 +135,16 @@ ImVec2 place(double x, double y) {
 
 /* --- frames ----------------------------------------------------------------------------------- */
 
-bool ui_open(bool draws) {
+bool ui_open(bool draws, void (*copy)(const char *text), const char *(*paste)(void)) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; /* nothing is written into the user's folder */
     self = new interface;
+    self->copy = copy;
+    self->paste = paste;
+    if (copy && paste) {
+        ImGui::GetIO().SetClipboardTextFn = [](void *, const char *text) { self->copy(text); };
+        ImGui::GetIO().GetClipboardTextFn = [](void *) { return self->paste(); };
+    }
     self->draws = draws && ImGui_ImplOpenGL3_Init("#version 450");
     if (self->draws || !draws)
         return true;
@@ -260,12 +270,20 @@ bool ui_covered() {
 }
 
 bool ui_takes_text() {
-    return ImGui::GetIO().WantTextInput;
+    const ImGuiContext *context = ImGui::GetCurrentContext();
+    /* what ImGui wants is a frame late when a field has been left */
+    return context->IO.WantTextInput && context->ActiveId != 0 &&
+           context->ActiveId == context->InputTextState.ID;
 }
 
 /* --- widgets ---------------------------------------------------------------------------------- */
 
 namespace {
+
+/* Returns the stored value of a linear one, the inverse of image_srgb_to_linear. */
+float to_stored(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1 / 2.4f) - 0.055f;
+}
 
 /* Remembers where the last widget is, if it is seen. */
 void mark(const char *name) {
@@ -289,10 +307,12 @@ bool ui_sidebar_begin(const char *title, double width, bool *open) {
     const ImRect bar = ImGui::GetCurrentWindow()->TitleBarRect();
     self->places[title] = ImVec2(bar.Min.x + 0.5f * bar.GetHeight(), bar.GetCenter().y);
     *open = !ImGui::IsWindowCollapsed();
+    ImGui::PushItemWidth(0.6f * static_cast<float>(width));
     return seen;
 }
 
 void ui_sidebar_end() {
+    ImGui::PopItemWidth();
     ImGui::End();
 }
 
@@ -317,6 +337,88 @@ bool ui_button(const char *name, const char *tip) {
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s", tip);
     return pressed;
+}
+
+void ui_text(const char *text) {
+    spell(text);
+    ImGui::TextUnformatted(text);
+}
+
+bool ui_numbers(const char *name, float *numbers, int count, float minimum, float maximum,
+                float step) {
+    const bool changed =
+        ImGui::DragScalarN(name, ImGuiDataType_Float, numbers, count, step, &minimum, &maximum,
+                           "%.5g", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
+    mark(name);
+    return changed;
+}
+
+bool ui_integer(const char *name, int *number, int minimum, int maximum) {
+    const bool changed =
+        ImGui::SliderInt(name, number, minimum, maximum, "%d", ImGuiSliderFlags_AlwaysClamp);
+    mark(name);
+    return changed;
+}
+
+bool ui_flag(const char *name, bool *on) {
+    const bool changed = ImGui::Checkbox(name, on);
+    mark(name);
+    return changed;
+}
+
+bool ui_choice(const char *name, const char *const *choices, int *chosen) {
+    int count = 0;
+    while (choices[count])
+        spell(choices[count++]);
+    const bool changed = ImGui::Combo(name, chosen, choices, count, 12);
+    mark(name);
+    return changed;
+}
+
+bool ui_tint(const char *name, float rgb[3]) {
+    float stored[3]; /* as a screen shows it */
+    for (int k = 0; k < 3; k++)
+        stored[k] = to_stored(rgb[k]);
+    const bool changed =
+        ImGui::ColorEdit3(name, stored,
+                          ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel |
+                              ImGuiColorEditFlags_NoOptions | ImGuiColorEditFlags_PickerHueWheel);
+    mark(name);
+    for (int k = 0; changed && k < 3; k++)
+        rgb[k] = static_cast<float>(image_srgb_to_linear(static_cast<double>(stored[k])));
+    ImGui::SameLine();
+    return changed;
+}
+
+bool ui_line(const char *name, char *text, size_t size, bool live) {
+    spell(text);
+    const bool changed =
+        ImGui::InputText(name, text, size, live ? 0 : ImGuiInputTextFlags_EnterReturnsTrue);
+    mark(name);
+    return changed;
+}
+
+void ui_list_begin(const char *name, int rows) {
+    ImGui::BeginChild(name,
+                      ImVec2(0, static_cast<float>(rows) * ImGui::GetTextLineHeightWithSpacing() +
+                                    2 * ImGui::GetStyle().WindowPadding.y),
+                      true);
+}
+
+bool ui_item(const char *text, bool chosen) {
+    spell(text);
+    const bool pressed = ImGui::Selectable(text, chosen);
+    mark(text);
+    return pressed;
+}
+
+void ui_list_end() {
+    ImGui::EndChild();
+}
+
+void ui_graph(const char *name, const float *numbers, int count, float maximum) {
+    ImGui::PlotLines("", numbers, count, 0, name, 0, maximum,
+                     ImVec2(ImGui::GetContentRegionAvail().x, 4 * ImGui::GetFontSize()));
 }
 
 bool ui_find(const char *name, double *x, double *y) {

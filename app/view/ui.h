@@ -6,6 +6,7 @@
 #define LAMPION_VIEW_UI_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -13,8 +14,9 @@ extern "C" {
 #endif
 
 /* Begins an interface: in the current OpenGL context or, without `draws`, one that is laid out but
- * not drawn. Returns false if OpenGL's functions cannot be loaded. */
-bool ui_open(bool draws);
+ * not drawn. The clipboard is reached by `copy` and `paste`, or NULL. Returns false if OpenGL's
+ * functions cannot be loaded. */
+bool ui_open(bool draws, void (*copy)(const char *text), const char *(*paste)(void));
 void ui_close(void);
 
 /* Begin and end a frame, in which everything is described anew. `scale` is relative to 96 pixels
@@ -56,7 +58,35 @@ bool ui_section(const char *title);
 /* Adds a button, beside others if there is room; returns whether it was pressed. */
 bool ui_button(const char *name, const char *tip);
 
-/* Finds the middle of a heading or button of the last frame; returns false if it is not seen. */
+/* Adds a line of text. */
+void ui_text(const char *text);
+
+/* Add fields, which return whether they changed the value. What follows ## in a name is not shown,
+ * but makes it another field. Numbers are dragged, by `step` a pixel, or typed after a double
+ * click. */
+bool ui_numbers(const char *name, float *numbers, int count, float minimum, float maximum,
+                float step);
+bool ui_integer(const char *name, int *number, int minimum, int maximum);
+bool ui_flag(const char *name, bool *on);
+bool ui_choice(const char *name, const char *const *choices, int *chosen);
+
+/* Adds a color, 0 … 1 and linear, to be picked; what comes next is beside it. */
+bool ui_tint(const char *name, float rgb[3]);
+
+/* Adds a field for text of at most `size` bytes. Returns whether Enter was pressed in it or, if it
+ * is `live`, whether the text changed. */
+bool ui_line(const char *name, char *text, size_t size, bool live);
+
+/* Adds a list that shows that many rows, then an item of it, which returns whether it was chosen.
+ */
+void ui_list_begin(const char *name, int rows);
+bool ui_item(const char *text, bool chosen);
+void ui_list_end(void);
+
+void ui_graph(const char *name, const float *numbers, int count, float maximum);
+
+/* Finds the middle of a heading, button or field of the last frame; returns false if it is not
+ * seen. */
 bool ui_find(const char *name, double *x, double *y);
 
 /* --- drawings --------------------------------------------------------------------------------- */

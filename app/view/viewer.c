@@ -24,7 +24,8 @@ static bool open_graphics(viewer *v, base_error *error) {
     v->scale = view_window_scale(v->window);
     return gpu_context_adopt(&v->context, error) &&
            (v->compositor = view_compositor_create(&v->context, v->world, error)) &&
-           (ui_open(true) || base_fail(error, NULL, "the functions of libGL cannot be loaded"));
+           (ui_open(true, view_window_copy, view_window_paste) ||
+            base_fail(error, NULL, "the functions of libGL cannot be loaded"));
 }
 
 static void close_graphics(viewer *v) {
@@ -58,6 +59,8 @@ static bool fulfill_requests(viewer *v, base_error *error) {
         view_save_lights(v);
     if (requests.record)
         view_toggle_recording(v);
+    if (requests.command && !view_copy_command(v, error))
+        view_say(&v->state, "%s", error->text);
     return !requests.shot || view_take_shot(v, NULL, error);
 }
 
@@ -77,7 +80,7 @@ static bool play_script(viewer *v, base_error *error) {
             view_window_resize(v->window, (int)line->event.x, (int)line->event.y);
         else
             view_take_event(v, &line->event);
-        if (v->state.requests.shot)
+        if (v->state.requests.shot || v->state.requests.command)
             return true;
     }
     return true;

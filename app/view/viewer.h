@@ -23,6 +23,14 @@ typedef struct view_told {
     int sample, samples;                    /* 0 samples: nothing was drawn yet */
 } view_told;
 
+/* What the sidebar remembers. */
+enum { VIEW_FRAMES_TOLD = 120 };
+typedef struct view_sidebar {
+    char find[64];              /* in the lists */
+    int material;               /* of the scene, the chosen one */
+    float ms[VIEW_FRAMES_TOLD]; /* that the last frames took, oldest first */
+} view_sidebar;
+
 typedef struct viewer {
     const view_options *options;
     view_state state;
@@ -47,7 +55,8 @@ typedef struct viewer {
     uint64_t laid, over; /* hashes of the interface's last frame, and of the one on the screen */
     double laid_at;      /* seconds: when the last frame was described */
     double uncovered;    /* width of the image beside the sidebar, in pixels */
-    bool pointed;        /* whether the pointer moved since then */
+    view_sidebar sidebar;
+    bool pointed;            /* whether the pointer moved since then */
     version seen, candidate; /* of the scene file */
     bool another; /* whether the scene is not that of the options: it has its own lights */
     double watched_at, clock;
@@ -81,6 +90,9 @@ void view_watch(viewer *v);
 
 /* Takes a screenshot. path: NULL, or the file of a script's shot, whose failure ends the viewer. */
 bool view_take_shot(viewer *v, const char *path, base_error *error);
+
+/* Takes a screenshot, and copies to the clipboard the command that makes the image of it. */
+bool view_copy_command(viewer *v, base_error *error);
 
 void view_toggle_recording(viewer *v);
 

@@ -12,7 +12,8 @@
 /* What is used of GLFW, which only the viewer opens. */
 /* clang-format off */
 #define GLFW_FUNCTIONS(X)                                                                          \
-    X(glfwCreateWindow) X(glfwDestroyWindow) X(glfwGetCursorPos) X(glfwGetFramebufferSize)         \
+    X(glfwCreateWindow) X(glfwDestroyWindow) X(glfwGetClipboardString) X(glfwGetCursorPos)         \
+    X(glfwGetFramebufferSize) X(glfwSetClipboardString)                                            \
     X(glfwGetKeyName) X(glfwGetPrimaryMonitor) X(glfwGetTime) X(glfwGetVersion)                    \
     X(glfwGetVideoMode) X(glfwGetWindowAttrib) X(glfwGetWindowContentScale)                        \
     X(glfwGetWindowMonitor) X(glfwGetWindowPos) X(glfwGetWindowSize)                               \
@@ -310,6 +311,15 @@ void view_window_toggle_fullscreen(view_window *window) {
 
 void view_window_swap(view_window *window) {
     lib.glfwSwapBuffers(window->glfw);
+}
+
+void view_window_copy(const char *text) {
+    lib.glfwSetClipboardString(NULL, text);
+}
+
+const char *view_window_paste(void) {
+    const char *text = lib.glfwGetClipboardString(NULL);
+    return text ? text : "";
 }
 
 double view_window_clock(void) {

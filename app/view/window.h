@@ -35,6 +35,10 @@ void view_window_title(view_window *window, const char *title);
 void view_window_toggle_fullscreen(view_window *window);
 void view_window_swap(view_window *window);
 
+/* The clipboard of the desktop. */
+void view_window_copy(const char *text);
+const char *view_window_paste(void);
+
 /* Returns the seconds since the first window was opened. */
 double view_window_clock(void);
 

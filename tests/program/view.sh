@@ -325,6 +325,26 @@ test_sidebar() {
     printf '0 move 160 240\n0.1 press "Add light"\n0.2 press "Brighten"\n0.3 press "Next method"\n0.5 key Ctrl+Q\n' >press.txt
     "$PROGRAM" view $sized --script press.txt --state state.json || fail "the script ends in $?"
     settings_of state.json >by_script.txt
+    # values by their names, and the command that makes the image
+    cat >set.txt <<'SET'
+0    set lights/0/radius 0.3
+0.1  set looks/0/bands 20
+0.2  set materials/wall ggx:0.2:0.9
+0.3  press "Split"
+0.4  press "Copy command"
+0.5  key Ctrl+Q
+SET
+    "$PROGRAM" view $sized --script set.txt --state state.json || fail "the script of values ends in $?"
+    is value radius 0.3 || fail "the radius is $(value radius)"
+    is value bands 20 || fail "there are $(value bands) bands"
+    command=$(value message | sed -n 's/^"Copied: lampion \(.*\)"$/\1/p')
+    [ -n "$command" ] || fail "no command: $(value message)"
+    "$PROGRAM" $command || fail "the command ends in $?: $command"
+    cmp lampion-0001.png again.png || fail "the command makes another image"
+    printf '0 set looks/0/bands none\n0.2 key Ctrl+Q\n' >set.txt
+    "$PROGRAM" view $sized --script set.txt --state state.json || fail "a value that cannot be ends the script: $?"
+    value message | grep -q bands || fail "nothing is said of bands: $(value message)"
+
     diff by_button.txt by_key.txt || fail "buttons and keys differ"
     diff by_key.txt by_script.txt || fail "keys and scripts differ"
 }

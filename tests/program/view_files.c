@@ -280,7 +280,7 @@ static view_box draw_over(int width, int height, double scale) {
 
 static void drawings_fit_and_grow_with_the_scale(void **unused) {
     (void)unused;
-    assert_true(ui_open(false));
+    assert_true(ui_open(false, NULL, NULL));
     draw_over(1280, 720, 1); /* of a font without some of the characters, which the next has */
     const view_box one = draw_over(1280, 720, 1), two = draw_over(1280, 720, 2);
     CHECK_WITHIN(fabs(two.width / one.width - 2), 0.05);
@@ -292,7 +292,7 @@ static void drawings_fit_and_grow_with_the_scale(void **unused) {
 static void frames_that_look_the_same_have_one_hash(void **unused) {
     (void)unused;
     uint64_t seen[4];
-    assert_true(ui_open(false));
+    assert_true(ui_open(false, NULL, NULL));
     for (int i = 0; i < 4; i++) {
         ui_begin(640, 480, 1, 0.1);
         view_draw_message(i == 3 ? "Shadow" : "Shadows", 500, 60, 400, 0.5);

@@ -5,17 +5,18 @@
 #include "tests/program/folder.h"
 #include "tests/program/view.h"
 
+#include <jansson.h>
+#include <stdlib.h>
+
 enum { WIDTH = 1280, HEIGHT = 3000 }; /* with room for every button at once */
 enum { MIDDLE = (WIDTH - VIEW_SIDEBAR_WIDTH) / 2 };
 
 static viewer v;
 static const view_options options = { .fps = 30 };
 
-/* Opens a viewer without graphics, whose interface is laid out all the same. */
-static int open_viewer(void **unused) {
+/* Opens a viewer of a scene that is open. */
+static void begin(void) {
     static view_settings drawn;
-    if (open_state(unused) != 0)
-        return -1;
     v = (viewer) { .options = &options, .state = state, .drawn = &drawn, .scale = 1 };
     v.state.now.width = WIDTH;
     v.state.now.height = HEIGHT;
@@ -31,9 +32,16 @@ static int open_viewer(void **unused) {
     v.state.seconds = 1;
     memcpy(&drawn, &v.state.now, view_settings_size(&v.state.now));
     view_keep(&v.state);
-    assert_true(ui_open(false));
     view_lay_out(&v, NULL, false);
     view_take_event(&v, &(view_event) { .kind = VIEW_MOVE, .x = MIDDLE, .y = HEIGHT / 2 });
+}
+
+/* Opens a viewer without graphics, whose interface is laid out all the same. */
+static int open_viewer(void **unused) {
+    if (open_state(unused) != 0)
+        return -1;
+    assert_true(ui_open(false, NULL, NULL));
+    begin();
     return 0;
 }
 
@@ -73,6 +81,7 @@ typedef struct outcome {
     bool playing, help, overlay, sidebar, walking;
     view_panel_kind panel;
     size_t next_number;
+    bool muted, solo;
 } outcome;
 
 static void note(outcome *o) {
@@ -92,6 +101,8 @@ static void note(outcome *o) {
     o->walking = s->walking;
     o->panel = s->panel.kind;
     o->next_number = s->next_number;
+    o->muted = s->muted[0];
+    o->solo = s->solo;
 }
 
 static void by_key(const view_key *row) {
@@ -115,7 +126,9 @@ static void by_button(const view_key *row) {
     const view_key *heading = row;
     while (heading->key || heading->help)
         heading--;
-    click_on(heading->shown);
+    double x, y;
+    if (!ui_find(row->name, &x, &y))
+        click_on(heading->shown);
     click_on(row->name);
 }
 
@@ -128,11 +141,13 @@ static void every_action_is_the_same_by_button_key_and_script(void **unused) {
         if (!row->name)
             continue;
         for (int way = 0; way < 3; way++) {
-            assert_int_equal(open_viewer(NULL), 0);
+            state = v.state;
+            close_state(NULL);
+            assert_int_equal(open_state(NULL), 0);
+            begin();
             note(&untouched);
             ways[way](row);
             note(&outcomes[way]);
-            close_viewer(NULL);
             if (memcmp(&outcomes[way], &outcomes[0], sizeof *outcomes) != 0)
                 fail_msg("%s: way %d does something else", row->name, way);
         }
@@ -158,6 +173,249 @@ static void every_action_has_one_name(void **unused) {
     }
 }
 
+/* --- values ----------------------------------------------------------------------------------- */
+
+static void set(const char *line) {
+    v.state.message[0] = '\0';
+    take((view_event) { .kind = VIEW_SET, .text = line });
+}
+
+/* Returns a member of the state's JSON by its path, as text without blanks. */
+static const char *member(const char *path) {
+    static char text[256], step[64];
+    json_t *root = view_settings_to_json(&v.state.now), *at = root;
+    for (const char *next = path; next; next = strchr(next, '/') ? strchr(next, '/') + 1 : NULL) {
+        snprintf(step, sizeof step, "%.*s", (int)strcspn(next, "/"), next);
+        at = json_is_array(at) ? json_array_get(at, strtoul(step, NULL, 10))
+                               : json_object_get(at, step);
+    }
+    char *dumped = json_dumps(at, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(6));
+    snprintf(text, sizeof text, "%s", dumped ? dumped : "nothing");
+    free(dumped);
+    json_decref(root);
+    return text;
+}
+
+static void values_are_set_by_their_names_in_the_json(void **unused) {
+    (void)unused;
+    static const char *const lines[][3] = {
+        { "lights/1/radius 0.3", "lights/1/radius", "0.3" },
+        { "lights/0/position 1, 2.5, -3", "lights/0/position", "[1.0,2.5,-3.0]" },
+        { "lights/0/kind spot", "lights/0/kind", "\"spot\"" },
+        { "looks/0/bands 20", "looks/0/bands", "20" },
+        { "looks/1/method coefficients", "looks/1/method", "\"coefficients\"" },
+        { "looks/0/window lanczos", "looks/0/window", "\"lanczos\"" },
+        { "exposure 2.5", "exposure", "2.5" },
+        { "tone filmic", "tone", "\"filmic\"" },
+        { "shadows true", "shadows", "true" },
+        { "bounces 3", "bounces", "3" },
+        { "ground on", "ground", "\"on\"" },
+        { "background 0.1, 0.2, 0.3", "background", "[0.1,0.2,0.3]" },
+        { "environment/name studio", "environment/name", "\"studio\"" },
+        { "environment/rotation 90", "environment/rotation", "90.0" },
+        { "camera/fov 0.5", "camera/fov", "0.5" },
+        { "camera/eye 1, 2, 3", "camera/eye", "[1.0,2.0,3.0]" },
+        { "split divided", "split", "\"divided\"" },
+        { "divider 0.25", "divider", "0.25" },
+        { "samples 7", "samples", "7" },
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        set(lines[i][0]);
+        if (strcmp(member(lines[i][1]), lines[i][2]) != 0)
+            fail_msg("%s: it is %s, with \"%s\"", lines[i][0], member(lines[i][1]),
+                     v.state.message);
+    }
+    char line[SCENE_NAME_SIZE + 32];
+    snprintf(line, sizeof line, "materials/%s ggx:0.3", world.materials[0].name);
+    set(line);
+    assert_string_equal(view_material_of(&v.state.now, world.materials[0].name), "ggx:0.3");
+    set("view/selected 1");
+    set("view/path bounce");
+    set("view/seconds 2.5");
+    set("view/playing true");
+    assert_int_equal(v.state.selected, 1);
+    assert_string_equal(v.state.path_names[v.state.path], "bounce");
+    assert_true(v.state.playing);
+    CHECK_NEAR(2.5, v.state.seconds, 0);
+}
+
+/* A method of fewer bands takes as many as it has. */
+static void a_method_holds_the_bands(void **unused) {
+    (void)unused;
+    char line[64];
+    for (int from = 0; from < METHODS; from++)
+        for (int to = 0; to < METHODS; to++) {
+            snprintf(line, sizeof line, "looks/0/method %s", method_table[from].name);
+            set(line);
+            v.state.now.shading[0].bands = method_table[from].bands_max[DEVICE_AUTO];
+            snprintf(line, sizeof line, "looks/0/method %s", method_table[to].name);
+            set(line);
+            assert_int_equal(v.state.now.shading[0].method, to);
+            assert_true(v.state.now.shading[0].bands <= method_table[to].bands_max[DEVICE_AUTO]);
+        }
+}
+
+static void what_cannot_be_set_changes_nothing(void **unused) {
+    (void)unused;
+    static const char *const lines[] = {
+        "lights/2/radius 1",
+        "lights/0/radius 0",
+        "lights/0/radius x",
+        "lights/0/none 1",
+        "lights/radius 1",
+        "lights/-1/radius 1",
+        "looks/2/bands 3",
+        "looks/0/bands 0",
+        "looks/0/bands 1e9",
+        "looks/0 1",
+        "exposure -1",
+        "exposure",
+        "exposure 1, 2, 3",
+        "tone none",
+        "scene other.gltf",
+        "width 64",
+        "origin 1, 2, 3",
+        "camera/fov 9",
+        "camera/none 1",
+        "split both",
+        "materials/none ggx",
+        "environment/strength -1",
+        "view/selected 2",
+        "view/selected x",
+        "view/seconds -1",
+        "view/path none",
+        "view/camera 99",
+        "view/help true",
+        "shadows perhaps",
+        "materials",
+        "lights",
+        "",
+        "environment/none 1",
+        "background 1",
+        "divider nan",
+        "view/playing 1",
+    };
+    static outcome before, after;
+    note(&before);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        set(lines[i]);
+        if (!v.state.message[0])
+            fail_msg("%s is taken", lines[i]);
+        note(&after);
+        memset(after.message, 0, sizeof after.message);
+        if (memcmp(&before, &after, sizeof before) != 0)
+            fail_msg("%s changes something", lines[i]);
+    }
+}
+
+static float radius(void) {
+    return v.state.now.lights[0].emitter.radius;
+}
+
+/* Presses on a field and moves by that many pixels. */
+static void drag(const char *name, int pixels) {
+    double x, y;
+    assert_true(ui_find(name, &x, &y));
+    take((view_event) { .kind = VIEW_MOVE, .x = x, .y = y });
+    take((view_event) { .kind = VIEW_PRESS, .button = VIEW_LEFT });
+    for (int i = 1; i <= 10; i++) {
+        take((view_event) { .kind = VIEW_MOVE, .x = x + 0.1 * i * pixels, .y = y });
+        view_lay_out(&v, NULL, false);
+    }
+    take((view_event) { .kind = VIEW_RELEASE, .button = VIEW_LEFT });
+}
+
+static void a_drag_of_a_field_is_undone_at_once(void **unused) {
+    (void)unused;
+    const float before = radius();
+    const int moments = v.state.history.count;
+    click_on("Lights");
+    drag("radius", 60);
+    assert_true(radius() > before);
+    assert_int_equal(v.state.history.count, moments + 1);
+    by_key(view_find_action("Undo"));
+    CHECK_NEAR(before, radius(), 0);
+    v.clock += 1; /* not a double click */
+    view_lay_out(&v, NULL, false);
+    drag("radius", -60);
+    assert_true(radius() < before && radius() > 0);
+}
+
+/* A double click makes a field for text of it; meanwhile no key is the image's. */
+static void numbers_are_typed_into_a_field(void **unused) {
+    (void)unused;
+    double x, y;
+    const method_kind method = v.state.now.shading[0].method;
+    const int moments = v.state.history.count;
+    click_on("Lights");
+    click_on("radius");
+    click_on("radius");
+    assert_true(ui_takes_text());
+    take((view_event) { .kind = VIEW_TYPE, .text = "0.751234512m" }); /* letters are no digits */
+    take((view_event) { .kind = VIEW_KEY, .text = "m" });
+    take((view_event) { .kind = VIEW_HOLD, .letter = 'w' });
+    take((view_event) { .kind = VIEW_KEY, .text = "Backspace" });
+    take((view_event) { .kind = VIEW_KEY, .text = "Backspace" });
+    take((view_event) { .kind = VIEW_KEY, .text = "Enter" });
+    assert_false(ui_takes_text());
+    CHECK_NEAR(0.7512345f, radius(), 0);
+    assert_int_equal(v.state.history.count, moments + 1);
+    assert_int_equal(v.state.panel.kind, VIEW_PANEL_CLOSED);
+    assert_false(v.state.held[0]);
+    assert_int_equal(v.state.now.shading[0].method, method);
+    by_key(view_find_action("Next method")); /* keys are the image's again */
+    assert_int_not_equal(v.state.now.shading[0].method, method);
+    click_on("Materials, files");
+    click_on("find");
+    assert_true(ui_takes_text() && ui_find("find", &x, &y));
+    take((view_event) { .kind = VIEW_TYPE, .text = "no such material" });
+    take((view_event) { .kind = VIEW_MOVE, .x = 200, .y = 200 });
+    take((view_event) { .kind = VIEW_PRESS, .button = VIEW_LEFT }); /* leaves the field */
+    take((view_event) { .kind = VIEW_RELEASE, .button = VIEW_LEFT });
+    view_lay_out(&v, NULL, false);
+    assert_false(ui_takes_text());
+}
+
+/* Every member that a light's file has is a field, of every kind of light. */
+static void every_member_of_a_light_is_a_field(void **unused) {
+    (void)unused;
+    char line[64];
+    double x, y;
+    click_on("Lights");
+    for (int kind = 0; kind < SCENE_LIGHT_KIND_COUNT; kind++) {
+        snprintf(line, sizeof line, "lights/0/kind %s", scene_light_kinds[kind].name);
+        set(line);
+        view_lay_out(&v, NULL, false);
+        for (const scene_light_member *m = scene_light_kinds[kind].members; m->name; m++)
+            if (m->type != SCENE_LIGHT_CORNERS && !ui_find(m->name, &x, &y))
+                fail_msg("%s: no field for %s", scene_light_kinds[kind].name, m->name);
+    }
+}
+
+static void muted_lights_are_kept_but_shine_no_more(void **unused) {
+    (void)unused;
+    static view_settings shown;
+    const lmp_rgb before = v.state.now.lights[0].emitter.radiance;
+    v.state.seconds = 0;
+    by_key(view_find_action("Mute"));
+    view_shown(&v.state, &shown);
+    CHECK_NEAR(0, shown.lights[0].emitter.radiance.r, 0);
+    assert_true(shown.lights[0].hidden && shown.lights[1].emitter.radiance.r > 0);
+    assert_memory_equal(&before, &v.state.now.lights[0].emitter.radiance, sizeof before);
+    by_key(view_find_action("Solo"));
+    view_shown(&v.state, &shown);
+    CHECK_NEAR(0, shown.lights[1].emitter.radiance.r, 0);
+    assert_memory_equal(&shown.lights[0], &v.state.now.lights[0], sizeof *shown.lights);
+    by_key(view_find_action("Solo"));
+    by_key(view_find_action("Copy light")); /* is not muted, though its model is */
+    view_shown(&v.state, &shown);
+    assert_true(shown.light_count == 3 && shown.lights[2].emitter.radiance.r > 0);
+    v.state.selected = 0;
+    by_key(view_find_action("Delete light")); /* the others move, and so do their marks */
+    view_shown(&v.state, &shown);
+    assert_true(shown.lights[0].emitter.radiance.r > 0 && shown.lights[1].emitter.radiance.r > 0);
+}
+
 /* --- whose event it is ------------------------------------------------------------------------ */
 
 static void what_happens_over_the_sidebar_does_not_reach_the_image(void **unused) {
@@ -166,6 +424,7 @@ static void what_happens_over_the_sidebar_does_not_reach_the_image(void **unused
     take((view_event) { .kind = VIEW_MOVE, .x = WIDTH - 20, .y = HEIGHT - 20 });
     take((view_event) { .kind = VIEW_PRESS, .button = VIEW_LEFT });
     take((view_event) { .kind = VIEW_MOVE, .x = 300, .y = 300 }); /* begun there, it stays there */
+    take((view_event) { .kind = VIEW_SCROLL, .y = 3 });
     take((view_event) { .kind = VIEW_RELEASE, .button = VIEW_LEFT });
     take((view_event) { .kind = VIEW_MOVE, .x = WIDTH - 20, .y = HEIGHT - 20 });
     take((view_event) { .kind = VIEW_SCROLL, .y = 3 });
@@ -212,6 +471,13 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(every_action_is_the_same_by_button_key_and_script),
         TEST(every_action_has_one_name),
+        TEST(values_are_set_by_their_names_in_the_json),
+        TEST(a_method_holds_the_bands),
+        TEST(what_cannot_be_set_changes_nothing),
+        TEST(a_drag_of_a_field_is_undone_at_once),
+        TEST(numbers_are_typed_into_a_field),
+        TEST(every_member_of_a_light_is_a_field),
+        TEST(muted_lights_are_kept_but_shine_no_more),
         TEST(what_happens_over_the_sidebar_does_not_reach_the_image),
         TEST(a_drag_of_the_image_stays_the_image_s),
         TEST(the_title_folds_the_sidebar),
