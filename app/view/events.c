@@ -94,6 +94,10 @@ static bool on_divider(const view_state *s) {
 }
 
 static void press(view_state *s, const view_event *event) {
+    if (s->help) { /* it covers the button that closes it */
+        s->help = false;
+        return;
+    }
     if (event->button == VIEW_MIDDLE || (event->button == VIEW_LEFT && event->shift)) {
         s->drag = VIEW_DRAG_PAN;
         return;

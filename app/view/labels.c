@@ -144,7 +144,7 @@ void view_lay_out(viewer *v, const char *announcement, bool fresh) {
         draw_sides(v, scale);
         view_draw_rows(rows, fill_statistics(v, rows), 12 * scale, 12 * scale, 0);
     }
-    const double right = v->uncovered = view_draw_sidebar(v);
+    const double right = v->uncovered = v->state.help ? width : view_draw_sidebar(v);
     if (v->state.help)
         view_draw_help(width, height);
     else

@@ -171,7 +171,7 @@ static void put_shading(viewer *v) {
     for (int side = 0; side < view_sides(&s->now); side++)
         put_side(s, side);
     float stops = log2f(s->now.exposure);
-    if (ui_numbers("exposure, stops", &stops, 1, -30, 30, 0.02f)) {
+    if (ui_numbers("exposure, EV", &stops, 1, -30, 30, 0.02f)) {
         const float exposure = exp2f(stops);
         set_numbers(s, "exposure", &exposure, 1);
     }
@@ -296,7 +296,7 @@ static void put_window(viewer *v) {
     ui_graph(text, v->sidebar.ms, VIEW_FRAMES_TOLD, most);
     for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
         snprintf(text, sizeof text, "%s %.1f ms", passes[i].name, passes[i].ms);
-        if (passes[i].ms > 0)
+        if (passes[i].ms >= 0.05)
             ui_text(text);
     }
 }

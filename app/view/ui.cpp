@@ -307,7 +307,7 @@ bool ui_sidebar_begin(const char *title, double width, bool *open) {
     const ImRect bar = ImGui::GetCurrentWindow()->TitleBarRect();
     self->places[title] = ImVec2(bar.Min.x + 0.5f * bar.GetHeight(), bar.GetCenter().y);
     *open = !ImGui::IsWindowCollapsed();
-    ImGui::PushItemWidth(0.6f * static_cast<float>(width));
+    ImGui::PushItemWidth(0.56f * static_cast<float>(width));
     return seen;
 }
 

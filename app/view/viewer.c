@@ -158,10 +158,11 @@ static bool open_viewer(viewer *v, base_error *error) {
     if (o->record)
         snprintf(v->record, sizeof v->record, "%s", o->record);
     v->state.recording = o->record != NULL;
-    v->state.sidebar = !o->script && !o->record && v->state.now.width >= VIEW_SIDEBAR_WIDTH * 3;
     v->divisor = 1;
     if (!open_graphics(v, error))
         return false;
+    v->state.sidebar =
+        !o->script && !o->record && v->state.now.width >= 3 * VIEW_SIDEBAR_WIDTH * v->scale;
     if (o->expose && !view_expose(v, error))
         return false;
     v->state.now.exposure *= o->expose ? o->settings.exposure : 1;

@@ -450,6 +450,17 @@ static void a_drag_of_the_image_stays_the_image_s(void **unused) {
     assert_int_equal(v.state.drag, VIEW_DRAG_NONE);
 }
 
+/* The help hides what opened it, and goes by a click. */
+static void a_click_closes_the_help(void **unused) {
+    (void)unused;
+    double x, y;
+    click_on("Window");
+    click_on("Help");
+    assert_true(v.state.help && !ui_find("Help", &x, &y));
+    click(WIDTH - 50, 100);
+    assert_true(!v.state.help && v.state.selected == 0 && ui_find("Help", &x, &y));
+}
+
 static void the_title_folds_the_sidebar(void **unused) {
     (void)unused;
     double x, y;
@@ -480,6 +491,7 @@ int main(void) {
         TEST(muted_lights_are_kept_but_shine_no_more),
         TEST(what_happens_over_the_sidebar_does_not_reach_the_image),
         TEST(a_drag_of_the_image_stays_the_image_s),
+        TEST(a_click_closes_the_help),
         TEST(the_title_folds_the_sidebar),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
