@@ -49,10 +49,10 @@ judge() {
         }' - "$1"
 }
 
-by_hand=$(git ls-files '*.c' '*.h' '*.sh' '*.awk' '*.py' '*.cmake' '*CMakeLists.txt' 'shaders/*/*' dev .ci/run)
+by_hand=$(git ls-files '*.c' '*.cpp' '*.h' '*.sh' '*.awk' '*.py' '*.cmake' '*CMakeLists.txt' 'shaders/*/*' dev .ci/run)
 {
     long_files $by_hand
-    long_functions $(printf '%s\n' $by_hand | grep -E '\.[ch]$|^shaders/')
+    long_functions $(printf '%s\n' $by_hand | grep -E '\.([ch]|cpp)$|^shaders/')
 } >"$WORK/long"
 judge "$WORK/long" tests/checks/sizes.txt || fail "split it, or say in tests/checks/sizes.txt why not"
 pages=$(long_pages $(git ls-files 'docs/*.md' | grep -v notes))
