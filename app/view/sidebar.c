@@ -96,6 +96,8 @@ static void put_camera(viewer *v) {
     if (s->world->camera_count > 0) {
         ui_list_begin("cameras", s->world->camera_count < 5 ? (int)s->world->camera_count : 5);
         for (size_t i = 0; i < s->world->camera_count; i++) {
+            if (!ui_sees_item())
+                continue;
             snprintf(item, sizeof item, "%zu %s##camera", i, s->world->cameras[i].name);
             snprintf(index, sizeof index, "%zu", i);
             if (ui_item(item, i == (size_t)s->camera))
@@ -118,8 +120,10 @@ static void put_materials(viewer *v) {
     ui_list_begin("materials", count < 6 ? count : 6);
     for (int i = 0; i < count; i++) {
         const char *name = s->world->materials[i].name;
+        if (!is_found(bar, name) || !ui_sees_item())
+            continue;
         snprintf(item, sizeof item, "%s##%d", name[0] ? name : "(no name)", i);
-        if (is_found(bar, name) && ui_item(item, i == bar->material))
+        if (ui_item(item, i == bar->material))
             bar->material = i;
     }
     ui_list_end();
@@ -267,6 +271,8 @@ static void put_lights(viewer *v) {
     if (count > 0) {
         ui_list_begin("lights", count < 6 ? count : 6);
         for (int i = 0; i < count; i++) {
+            if (!ui_sees_item())
+                continue;
             snprintf(item, sizeof item, "%d %s%s##light", i, kinds[s->now.lights[i].emitter.kind],
                      s->muted[i] ? ", muted" : "");
             if (ui_item(item, i == s->selected))

@@ -405,6 +405,14 @@ void ui_list_begin(const char *name, int rows) {
                       true);
 }
 
+bool ui_sees_item() {
+    const ImVec2 size(1, ImGui::GetTextLineHeight());
+    const bool seen = ImGui::IsRectVisible(size);
+    if (!seen)
+        ImGui::Dummy(size);
+    return seen;
+}
+
 bool ui_item(const char *text, bool chosen) {
     spell(text);
     const bool pressed = ImGui::Selectable(text, chosen);

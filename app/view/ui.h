@@ -77,9 +77,13 @@ bool ui_tint(const char *name, float rgb[3]);
  * is `live`, whether the text changed. */
 bool ui_line(const char *name, char *text, size_t size, bool live);
 
-/* Adds a list that shows that many rows, then an item of it, which returns whether it was chosen.
- */
+/* Adds a list that shows that many rows; then its items. */
 void ui_list_begin(const char *name, int rows);
+
+/* Whether the next item is seen; if not, its place is left empty. */
+bool ui_sees_item(void);
+
+/* Adds an item; returns whether it was chosen. */
 bool ui_item(const char *text, bool chosen);
 void ui_list_end(void);
 

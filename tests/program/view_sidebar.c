@@ -439,6 +439,25 @@ static void muted_lights_are_kept_but_shine_no_more(void **unused) {
     assert_true(shown.lights[0].emitter.radiance.r > 0 && shown.lights[1].emitter.radiance.r > 0);
 }
 
+/* Of many lights those that are seen are described, and the list is as long as all of them. */
+static void the_last_of_many_lights_is_selected_in_the_list(void **unused) {
+    (void)unused;
+    static scene_light many[SCENE_LIGHTS_MAX];
+    char item[64];
+    double x, y;
+    for (size_t i = 0; i < SCENE_LIGHTS_MAX; i++)
+        many[i].emitter = (lmp_light) { .radius = 1, .radiance = { 1, 1, 1 } };
+    view_put_lights(&v.state, many, SCENE_LIGHTS_MAX);
+    click_on("Lights");
+    assert_true(ui_find("0 sphere##light", &x, &y) && !ui_find("20 sphere##light", &x, &y));
+    take((view_event) { .kind = VIEW_MOVE, .x = x, .y = y });
+    take((view_event) { .kind = VIEW_SCROLL, .y = -1e6 });
+    view_lay_out(&v, NULL, false);
+    snprintf(item, sizeof item, "%d sphere##light", SCENE_LIGHTS_MAX - 1);
+    click_on(item);
+    assert_int_equal(v.state.selected, SCENE_LIGHTS_MAX - 1);
+}
+
 /* --- whose event it is ------------------------------------------------------------------------ */
 
 static void what_happens_over_the_sidebar_does_not_reach_the_image(void **unused) {
@@ -513,6 +532,7 @@ int main(void) {
         TEST(a_picked_color_is_as_bright_as_before),
         TEST(every_member_of_a_light_is_a_field),
         TEST(muted_lights_are_kept_but_shine_no_more),
+        TEST(the_last_of_many_lights_is_selected_in_the_list),
         TEST(what_happens_over_the_sidebar_does_not_reach_the_image),
         TEST(a_drag_of_the_image_stays_the_image_s),
         TEST(a_click_closes_the_help),
