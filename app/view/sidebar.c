@@ -2,6 +2,7 @@
 /* sidebar.c - every value as a field, and every action as a button. */
 #include "app/render/renderer/bounces.h"
 #include "app/scene/vector.h"
+#include "app/scene/world.h"
 #include "app/view/ui.h"
 #include "app/view/viewer.h"
 
@@ -222,6 +223,17 @@ static void put_color(view_state *s, const char *name, const char *path, const f
     }
 }
 
+/* Puts a position far from 0 as text, which keeps digits that a float has not. */
+static void put_world(view_state *s, const char *name, const char *path, const float *position) {
+    char text[3 * sizeof(scene_world_text) + 8];
+    scene_world_text at[3];
+    for (int k = 0; k < 3; k++)
+        scene_print_world(s->now.origin[k], position[k], 9, at[k]);
+    snprintf(text, sizeof text, "%s, %s, %s", at[0], at[1], at[2]);
+    if (ui_line(name, text, sizeof text, false))
+        set(s, path, text);
+}
+
 /* Puts numbers in the units of the file: a member may give another quantity than is kept. */
 static void put_member(view_state *s, const scene_light_member *m, float diagonal) {
     char path[64];
@@ -232,11 +244,13 @@ static void put_member(view_state *s, const scene_light_member *m, float diagona
     snprintf(path, sizeof path, "lights/%d/%s", s->selected, m->name);
     if (m->type == SCENE_LIGHT_FLAG)
         put_flag(s, m->name, path, *scene_light_flag(&light, m));
-    if (m->type == SCENE_LIGHT_FLAG || m->type == SCENE_LIGHT_CORNERS)
+    const bool far_away = m->type == SCENE_LIGHT_POSITION && !scene_origin_is_0(s->now.origin);
+    if (far_away)
+        put_world(s, m->name, path, value);
+    if (far_away || m->type == SCENE_LIGHT_FLAG || m->type == SCENE_LIGHT_CORNERS)
         return;
     for (int k = 0; k < count; k++)
-        numbers[k] =
-            value[k] / unit + (m->type == SCENE_LIGHT_POSITION ? (float)s->now.origin[k] : 0);
+        numbers[k] = value[k] / unit;
     const float size = fmaxf(fabsf(numbers[0]), 1e-3f * diagonal), far = LMP_LENGTH_MAX;
     bool changed = false;
     switch (m->type) {

@@ -375,6 +375,23 @@ static void numbers_are_typed_into_a_field(void **unused) {
     assert_false(ui_takes_text());
 }
 
+/* Far from 0 a position is typed, with more digits than a float has. */
+static void positions_far_from_0_keep_their_digits(void **unused) {
+    (void)unused;
+    double x, y;
+    v.state.now.origin[0] = 8e6;
+    click_on("Lights");
+    assert_true(ui_find("position", &x, &y));
+    click(x - 60, y); /* left of the name */
+    assert_true(ui_takes_text());
+    take((view_event) { .kind = VIEW_KEY, .text = "Ctrl+A" });
+    take((view_event) { .kind = VIEW_TYPE, .text = "8000000.125, 2, 3" });
+    take((view_event) { .kind = VIEW_KEY, .text = "Enter" });
+    CHECK_NEAR(0.125, v.state.now.lights[0].emitter.position.x, 0);
+    CHECK_NEAR(2, v.state.now.lights[0].emitter.position.y, 0);
+    assert_string_equal(v.state.message, "");
+}
+
 /* However dark the picked color is, the brightest channel stays, while the pointer moves on, too.
  */
 static void a_picked_color_is_as_bright_as_before(void **unused) {
@@ -529,6 +546,7 @@ int main(void) {
         TEST(what_cannot_be_set_changes_nothing),
         TEST(a_drag_of_a_field_is_undone_at_once),
         TEST(numbers_are_typed_into_a_field),
+        TEST(positions_far_from_0_keep_their_digits),
         TEST(a_picked_color_is_as_bright_as_before),
         TEST(every_member_of_a_light_is_a_field),
         TEST(muted_lights_are_kept_but_shine_no_more),
