@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/camera.h"
-#include "app/scene/instance.h"
 #include "app/scene/vector.h"
 
 #include <math.h>
@@ -102,10 +101,14 @@ view_ray view_ray_through(const scene_camera *camera, int width, int height, dou
                 wide = tall * (float)width / (float)height;
     const float right = wide * (float)(2 * x / width - 1), up = tall * (float)(1 - 2 * y / height);
     const lmp_vec3 aside = vec_add(vec_scale(f.right, right), vec_scale(f.up, up));
+    const float stretch = camera->height > 0 ? 1 : vec_length(vec_add(f.forward, aside));
+    const float near = stretch * camera->near,
+                far = camera->far > 0 ? stretch * camera->far : INFINITY;
+    const float pixel = 2 * tall / (float)height;
     if (camera->height > 0)
-        return (view_ray) { vec_add(f.eye, aside), f.forward, 2 * tall / (float)height, 0 };
-    return (view_ray) { f.eye, vec_normalize(vec_add(f.forward, aside), f.forward), 0,
-                        2 * tall / (float)height };
+        return (view_ray) { vec_add(f.eye, aside), f.forward, near, far, pixel, 0 };
+    return (view_ray) { f.eye, vec_normalize(vec_add(f.forward, aside), f.forward), near, far, 0,
+                        pixel };
 }
 
 bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 point, double *x,
@@ -120,8 +123,6 @@ bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 po
     *y = 0.5 * height - (double)vec_dot(way, f.up) * *scale;
     return true;
 }
-
-/* --- picking ---------------------------------------------------------------------------------- */
 
 int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float pixels,
                     float *distance) {
@@ -143,57 +144,4 @@ int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count
         }
     }
     return nearest;
-}
-
-static bool may_hit(const view_ray *ray, const float minimum[3], const float maximum[3],
-                    float farthest) {
-    const float *from = &ray->from.x, *direction = &ray->direction.x;
-    float enter = 0, leave = farthest;
-    for (int k = 0; k < 3; k++) {
-        const float a = (minimum[k] - from[k]) / direction[k];
-        const float b = (maximum[k] - from[k]) / direction[k];
-        if (direction[k] == 0) {
-            if (from[k] < minimum[k] || from[k] > maximum[k])
-                return false;
-            continue;
-        }
-        enter = fmaxf(enter, fminf(a, b));
-        leave = fminf(leave, fmaxf(a, b));
-    }
-    return enter <= leave;
-}
-
-/* Returns the distance to a triangle (Möller and Trumbore 1997). */
-static float hit_triangle(const view_ray *ray, lmp_vec3 p, lmp_vec3 q, lmp_vec3 r,
-                          lmp_vec3 *normal) {
-    const lmp_vec3 a = vec_sub(q, p), b = vec_sub(r, p), h = vec_cross(ray->direction, b);
-    const float det = vec_dot(a, h);
-    const lmp_vec3 from = vec_sub(ray->from, p), s = vec_cross(from, a);
-    const float u = vec_dot(from, h) / det, v = vec_dot(ray->direction, s) / det;
-    if (det == 0 || !(u >= 0) || !(v >= 0) || !(u + v <= 1))
-        return -1;
-    *normal = vec_cross(a, b);
-    return vec_dot(b, s) / det;
-}
-
-view_hit view_pick_surface(const view_ray *ray, const scene *world) {
-    view_hit hit = { -1, INFINITY, { 0, 1, 0 } };
-    for (size_t i = 0; i < world->instance_count; i++) {
-        float minimum[3], maximum[3], p[3][3];
-        scene_instance_box(world, i, minimum, maximum);
-        if (!may_hit(ray, minimum, maximum, hit.distance))
-            continue;
-        for (uint32_t t = 0; t < scene_instance_triangles(world, i); t++) {
-            lmp_vec3 normal;
-            scene_triangle_positions(world, i, t, p);
-            const float distance =
-                hit_triangle(ray, vec_load(p[0]), vec_load(p[1]), vec_load(p[2]), &normal);
-            if (distance > 0 && distance < hit.distance)
-                hit = (view_hit) { (int)world->instances[i].mesh, distance, normal };
-        }
-    }
-    hit.normal = vec_normalize(hit.normal, vec(0, 1, 0));
-    if (vec_dot(hit.normal, ray->direction) > 0)
-        hit.normal = vec_scale(hit.normal, -1);
-    return hit;
 }

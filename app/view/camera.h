@@ -32,6 +32,7 @@ void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspec
  * corner. */
 typedef struct view_ray {
     lmp_vec3 from, direction; /* direction is unit */
+    float near, far;          /* distances between which the camera sees; far may be INFINITY */
     float pixel, spread;      /* a pixel's height at the start, and its growth per length */
 } view_ray;
 view_ray view_ray_through(const scene_camera *camera, int width, int height, double x, double y);
@@ -45,13 +46,5 @@ bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 po
  * how much each sphere's radius is enlarged, so that far ones can be hit. */
 int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float pixels,
                     float *distance);
-
-/* The nearest triangle that the ray meets: its mesh, or -1. */
-typedef struct view_hit {
-    int mesh;
-    float distance;
-    lmp_vec3 normal; /* unit, on the side the ray comes from */
-} view_hit;
-view_hit view_pick_surface(const view_ray *ray, const scene *scene);
 
 #endif

@@ -30,7 +30,8 @@ typedef struct side {
 struct view_compositor {
     render_device gpu, cpu; /* cpu once something is drawn there; gpu not without OpenGL */
     const scene *world;
-    scene preview; /* without vertices, the scene itself is drawn instead */
+    view_tree *tree; /* of the scene, or NULL */
+    scene preview;   /* without vertices, the scene itself is drawn instead */
     gpu_screen *screen;
     view_side shown[2]; /* the images of the sides, if there is no screen */
     side sides[2];
@@ -43,13 +44,14 @@ struct view_compositor {
 };
 
 view_compositor *view_compositor_create(const gpu_context *context, const scene *world,
-                                        base_error *error) {
+                                        view_tree *tree, base_error *error) {
     view_compositor *s = calloc(1, sizeof *s);
     if (!s) {
         base_fail(error, NULL, "out of memory");
         return NULL;
     }
     s->world = world;
+    s->tree = tree;
     if (!context)
         return s;
     render_device_adopt(context, world, &s->gpu);
@@ -191,10 +193,15 @@ static bool prepare_renderer(view_compositor *s, side *own, any_renderer *render
            override_apply(&own->materials.made, s->world, renderer, error);
 }
 
+/* Returns the tree of the scene, or NULL: devices then build their own. */
+static const trace_bvh *shared_tree(const view_compositor *s) {
+    return s->tree ? view_tree_wait(s->tree) : NULL;
+}
+
 static bool open_cpu(view_compositor *s, side *own, base_error *error) {
     if (own->cpu)
         return true;
-    if (!s->cpu.cpu && !render_device_open(DEVICE_CPU, NULL, s->world, &s->cpu, error))
+    if (!s->cpu.cpu && !render_device_open_cpu(s->world, shared_tree(s), &s->cpu, error))
         return false;
     own->cpu = renderer_create(&s->cpu, error);
     return prepare_renderer(s, own, own->cpu, error);
@@ -292,7 +299,10 @@ static bool prepare_environment(view_compositor *s, const view_settings *setting
 
 /* Returns the device whose tree rays are cast by. */
 static render_device *tracing_device(view_compositor *s) {
-    return s->cpu.cpu ? &s->cpu : &s->gpu;
+    if (s->cpu.cpu)
+        return &s->cpu;
+    render_device_lend(&s->gpu, shared_tree(s));
+    return &s->gpu;
 }
 
 static bool prepare_shadows(view_compositor *s, const view_settings *settings, render_pass *pass,

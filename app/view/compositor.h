@@ -4,6 +4,7 @@
 #define LAMPION_VIEW_COMPOSITOR_H
 
 #include "app/view/settings.h"
+#include "app/view/tree.h"
 
 typedef struct view_compositor view_compositor;
 
@@ -11,10 +12,10 @@ typedef struct view_compositor view_compositor;
 bool view_compositor_does_without(const view_settings *settings);
 
 /* Makes a compositor in the current context, or without OpenGL if context is NULL: then nothing can
- * be shown, and settings that require OpenGL cannot be drawn. The scene must outlive the
- * compositor. Returns NULL on failure. */
+ * be shown, and settings that require OpenGL cannot be drawn. The scene and its tree must outlive
+ * the compositor; without a tree, NULL, it builds one when it needs it. Returns NULL on failure. */
 view_compositor *view_compositor_create(const gpu_context *context, const scene *world,
-                                        base_error *error);
+                                        view_tree *tree, base_error *error);
 void view_compositor_destroy(view_compositor *compositor);
 
 /* Milliseconds of the passes of the last image, of both sides together. */

@@ -48,7 +48,7 @@ static int light_at_pointer(const view_state *s) {
         view_pick_light(&ray, shown.lights, shown.light_count, PICK_PIXELS, &light_distance);
     if (light < 0)
         return -1;
-    const view_hit hit = view_pick_surface(&ray, s->world);
+    const view_hit hit = view_pick_surface(&ray, s->tree);
     return hit.mesh >= 0 &&
                    hit.distance < light_distance - scene_light_extent(&shown.lights[light].emitter)
                ? -1

@@ -18,7 +18,7 @@ static const char *base_name(const char *file) {
 
 static view_hit hit_at_pointer(const view_state *s) {
     const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
-    return view_pick_surface(&ray, s->world);
+    return view_pick_surface(&ray, s->tree);
 }
 
 int view_material_at_pointer(const view_state *s) {

@@ -122,7 +122,7 @@ const char *const view_known_materials[] = {
 
 static void change_material(view_state *s, int step) {
     const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
-    const view_hit hit = view_pick_surface(&ray, s->world);
+    const view_hit hit = view_pick_surface(&ray, s->tree);
     base_error error;
     if (hit.mesh < 0) {
         view_say(s, "Point at an object to change its material");

@@ -148,7 +148,7 @@ static void append(view_state *s, const scene_light *light) {
 void view_add_light(view_state *s, int unused) {
     (void)unused;
     const view_ray ray = pointer_ray(s);
-    const view_hit hit = view_pick_surface(&ray, s->world);
+    const view_hit hit = view_pick_surface(&ray, s->tree);
     scene_light light = { .emitter = new_light(s, scene_light_kind_default) };
     if (s->selected >= 0 && scene_light_has(&s->now.lights[s->selected], SCENE_LIGHT_POSITION))
         light.emitter = s->now.lights[s->selected].emitter;
@@ -224,7 +224,7 @@ void view_direct_light(view_state *s, int unused) {
         return;
     scene_light *light = &s->now.lights[s->selected];
     const view_ray ray = pointer_ray(s);
-    const view_hit hit = view_pick_surface(&ray, s->world);
+    const view_hit hit = view_pick_surface(&ray, s->tree);
     lmp_vec3 direction = ray.direction;
     if (!scene_light_has(light, SCENE_LIGHT_DIRECTION)) {
         view_say(s, "A %s light has no direction", scene_light_kinds[light->emitter.kind].name);

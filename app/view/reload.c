@@ -85,11 +85,13 @@ void view_show_title(viewer *v) {
 }
 
 /* Replaces the scene that is drawn. */
-static void replace_world(viewer *v, scene *world, view_compositor *compositor) {
+static void replace_world(viewer *v, scene *world, view_tree *tree, view_compositor *compositor) {
     view_compositor_destroy(v->compositor);
+    view_tree_end(v->tree);
     view_free_scene(v->world);
     world->name = v->state.now.scene;
     v->world = world;
+    v->tree = tree;
     v->compositor = compositor;
     v->fresh = true;
 }
@@ -112,15 +114,18 @@ void view_reload(viewer *v) {
     scene_options load = o->load;
     load.variant = other ? NULL : view_variant(&v->state.now);
     scene *world = view_load_scene(name, &load, other || v->another ? &own : &o->lights, &error);
-    view_compositor *compositor = world ? view_compositor_create(&v->context, world, &error) : NULL;
-    if (!compositor || !view_state_replace_scene(&v->state, world, &error)) {
+    view_tree *tree = world ? view_tree_begin(world, &error) : NULL;
+    view_compositor *compositor =
+        tree ? view_compositor_create(&v->context, world, tree, &error) : NULL;
+    if (!compositor || !view_state_replace_scene(&v->state, world, tree, &error)) {
         view_compositor_destroy(compositor);
+        view_tree_end(tree);
         view_free_scene(world);
         v->state.other[0] = '\0';
         view_say(&v->state, "%s", error.text);
         return;
     }
-    replace_world(v, world, compositor);
+    replace_world(v, world, tree, compositor);
     if (other)
         begin_other(v);
     drop_lost_materials(&v->state);

@@ -22,11 +22,11 @@ bool view_render(view_settings *settings, const char *device, const char *path, 
     if (!image_check_path(path, error) || !scene_load(settings->scene, &load, &world, error))
         return false;
     view_settings_rebase(settings, world.origin);
-    const bool ok =
-        open_context(settings, device, &context, error) &&
-        (compositor = view_compositor_create(context.display ? &context : NULL, &world, error)) &&
-        view_compositor_draw(compositor, settings, &statistics, error) &&
-        view_compositor_write(compositor, settings, path, error);
+    const bool ok = open_context(settings, device, &context, error) &&
+                    (compositor = view_compositor_create(context.display ? &context : NULL, &world,
+                                                         NULL, error)) &&
+                    view_compositor_draw(compositor, settings, &statistics, error) &&
+                    view_compositor_write(compositor, settings, path, error);
     view_compositor_destroy(compositor);
     gpu_context_destroy(&context);
     scene_free(&world);

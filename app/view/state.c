@@ -70,10 +70,11 @@ static void take_lights(view_state *s) {
     view_history_keep(&s->history, &s->now, s->numbers);
 }
 
-bool view_state_open(const scene *world, const view_settings *settings, const char *animate,
-                     view_state *s, base_error *error) {
+bool view_state_open(const scene *world, view_tree *tree, const view_settings *settings,
+                     const char *animate, view_state *s, base_error *error) {
     memset(s, 0, sizeof *s);
     s->world = world;
+    s->tree = tree;
     s->now = *settings;
     s->overlay = true;
     s->playing = animate != NULL;
@@ -140,7 +141,8 @@ static void take_paths_back(view_state *s, const kept_paths *kept) {
     memcpy(s->path_names, kept->names, sizeof kept->names);
 }
 
-bool view_state_replace_scene(view_state *s, const scene *world, base_error *error) {
+bool view_state_replace_scene(view_state *s, const scene *world, view_tree *tree,
+                              base_error *error) {
     const kept_paths before = keep_paths(s);
     const char *name = s->path_names[s->path];
     s->world = world;
@@ -154,6 +156,7 @@ bool view_state_replace_scene(view_state *s, const scene *world, base_error *err
             return false;
         }
     }
+    s->tree = tree;
     for (int i = 0; i < before.count; i++)
         animation_close(before.paths[i]);
     follow_origin(s);

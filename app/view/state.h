@@ -4,9 +4,9 @@
 #define LAMPION_VIEW_STATE_H
 
 #include "app/scene/animation.h"
-#include "app/view/camera.h"
 #include "app/view/history.h"
 #include "app/view/settings.h"
+#include "app/view/tree.h"
 
 /* --- events ----------------------------------------------------------------------------------- */
 
@@ -77,6 +77,7 @@ enum { VIEW_PATHS_MAX = 4, VIEW_MESSAGE_SIZE = 256 };
 typedef struct view_state {
     view_settings now; /* lights at rest, without animation */
     const scene *world;
+    view_tree *tree;                  /* of the scene */
     animation *paths[VIEW_PATHS_MAX]; /* owned */
     const char *path_names[VIEW_PATHS_MAX];
     int path_count, path;
@@ -107,8 +108,8 @@ typedef struct view_state {
 /* Starts with `settings`, whose lights become the scene's. Owns nothing but the paths that it
  * opens: orbit, bounce, that of the scene if it has one, and `animate` (a name of animation_open,
  * or NULL: nothing is animated at first). */
-bool view_state_open(const scene *world, const view_settings *settings, const char *animate,
-                     view_state *state, base_error *error);
+bool view_state_open(const scene *world, view_tree *tree, const view_settings *settings,
+                     const char *animate, view_state *state, base_error *error);
 void view_state_close(view_state *state);
 
 /* Replaces all lights. */
@@ -116,7 +117,8 @@ void view_put_lights(view_state *state, const scene_light *lights, size_t count)
 
 /* Replaces the scene by another version of it; edited lights are kept. For a different scene, only
  * the shading settings are kept. */
-bool view_state_replace_scene(view_state *state, const scene *world, base_error *error);
+bool view_state_replace_scene(view_state *state, const scene *world, view_tree *tree,
+                              base_error *error);
 
 void view_handle(view_state *state, const view_event *event);
 

@@ -23,7 +23,7 @@ static bool open_graphics(viewer *v, base_error *error) {
     view_show_title(v);
     v->scale = view_window_scale(v->window);
     return gpu_context_adopt(&v->context, error) &&
-           (v->compositor = view_compositor_create(&v->context, v->world, error)) &&
+           (v->compositor = view_compositor_create(&v->context, v->world, v->tree, error)) &&
            (ui_open(true, view_window_copy, view_window_paste) ||
             base_fail(error, NULL, "the functions of libGL cannot be loaded"));
 }
@@ -145,7 +145,10 @@ static bool open_viewer(viewer *v, base_error *error) {
     if (o->camera_wanted && !scene_place_camera(v->world, &o->camera, size, &first->camera, error))
         return false;
     first->camera.near = first->camera.far = 0; /* it may fly past the file's planes */
-    if (!view_state_open(v->world, first, o->animate, &v->state, error))
+    v->tree = view_tree_begin(v->world, error);
+    if (!v->tree)
+        return false;
+    if (!view_state_open(v->world, v->tree, first, o->animate, &v->state, error))
         return false;
     if (!view_choose_environment(v, error))
         return false;
@@ -182,6 +185,7 @@ bool view_run(const view_options *options, base_error *error) {
     view_window_end();
     view_state_close(&v->state);
     view_script_free(&v->script);
+    view_tree_end(v->tree);
     view_free_scene(v->world);
     free(v->shown);
     free(v->drawn);

@@ -37,6 +37,7 @@ typedef struct viewer {
     view_script script;
     size_t script_next;
     scene *world;
+    view_tree *tree; /* of the scene */
     gpu_context context;
     view_window *window;
     view_compositor *compositor;

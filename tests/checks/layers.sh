@@ -43,7 +43,7 @@ may_include() {
     app/truth/reference) echo app/base app/image app/scene app/scene/trace app/truth/reference base sh sphere light lobe brdf ;;
     app/truth) echo app/base app/image app/scene app/truth app/truth/reference base sh sphere light lobe brdf preintegrated material shade ;;
     app/study) echo app/base app/image app/scene app/scene/trace app/render app/render/gl app/render/shadow app/render/renderer app/truth/reference app/study LIBRARY ;;
-    app/view) echo app/base app/image app/scene app/render app/render/gl app/render/renderer app/view LIBRARY ;;
+    app/view) echo app/base app/image app/scene app/scene/trace app/render app/render/gl app/render/renderer app/view LIBRARY ;;
     app/command) echo app/base app/image app/scene app/scene/trace app/render app/render/renderer app/truth \
         app/truth/reference app/study app/view app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base cpu kernels sh sphere light lobe probe brdf preintegrated material shade field transfer lampion/'

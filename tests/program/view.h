@@ -14,6 +14,7 @@
     CHECK_WITHIN(fabs((double)(actual) - (double)(expected)), bound)
 
 static scene world;
+static view_tree *tree;
 static view_state state;
 
 static int open_state(void **unused) {
@@ -32,7 +33,8 @@ static int open_state(void **unused) {
     settings.shading[0] = settings.shading[1] =
         (view_shading) { METHOD_ZONAL, 10, LMP_WINDOW_NONE };
     settings.camera = (scene_camera) { .eye = { 0, 0, 10 }, .up = { 0, 1, 0 }, .fov = 1 };
-    if (!view_state_open(&world, &settings, NULL, &state, &error))
+    tree = view_tree_begin(&world, &error);
+    if (!tree || !view_state_open(&world, tree, &settings, NULL, &state, &error))
         return -1;
     for (int k = 0; k < 3; k++)
         state.now.camera.target[k] = 0.5f * (world.minimum[k] + world.maximum[k]);
@@ -42,6 +44,7 @@ static int open_state(void **unused) {
 static int close_state(void **unused) {
     (void)unused;
     view_state_close(&state);
+    view_tree_end(tree);
     scene_free(&world);
     return 0;
 }

@@ -262,7 +262,8 @@ static void another_scene_starts_afresh(void **unused) {
     assert_true(state.requests.reload);
     assert_string_equal(state.other, "builtin:balls");
     assert_true(scene_load("builtin:balls", NULL, &other, &error));
-    assert_true(view_state_replace_scene(&state, &other, &error));
+    view_tree *grown = view_tree_begin(&other, &error);
+    assert_true(grown && view_state_replace_scene(&state, &other, grown, &error));
     assert_string_equal(state.now.scene, "builtin:balls");
     assert_int_equal(state.now.light_count, other.light_count);
     assert_int_equal(state.now.material_count, 0);
@@ -275,7 +276,8 @@ static void another_scene_starts_afresh(void **unused) {
     state.now.camera.target[1] += 1000; /* toward the sky */
     key("Enter");
     assert_non_null(strstr(state.message, "drop it onto an object"));
-    assert_true(view_state_replace_scene(&state, &world, &error));
+    assert_true(view_state_replace_scene(&state, &world, tree, &error));
+    view_tree_end(grown);
     scene_free(&other);
 }
 
@@ -312,9 +314,11 @@ static void inside_a_building_the_left_button_looks_around(void **unused) {
     base_error error;
     assert_true(scene_load("builtin:atrium", NULL, &atrium, &error));
     strcpy(state.other, "builtin:atrium");
-    assert_true(view_state_replace_scene(&state, &atrium, &error));
+    view_tree *grown = view_tree_begin(&atrium, &error);
+    assert_true(grown && view_state_replace_scene(&state, &atrium, grown, &error));
     assert_true(state.walking);
-    assert_true(view_state_replace_scene(&state, &world, &error));
+    assert_true(view_state_replace_scene(&state, &world, tree, &error));
+    view_tree_end(grown);
     scene_free(&atrium);
 }
 

@@ -122,7 +122,7 @@ static void lights_behind_a_surface_are_not_picked(void **unused) {
     view_project(&state.now.camera, 640, 480, center, &x, &y, &scale);
     at(x, y);
     const view_ray ray = view_ray_through(&state.now.camera, 640, 480, x, y);
-    assert_true(view_pick_surface(&ray, &world).mesh >= 0);
+    assert_true(view_pick_surface(&ray, tree).mesh >= 0);
     button(VIEW_PRESS, VIEW_LEFT, false);
     assert_int_equal(state.selected, -1);
     button(VIEW_RELEASE, VIEW_LEFT, false);
@@ -206,7 +206,7 @@ static void lights_are_directed_at_the_pointer(void **unused) {
     at(320, 240);
     key("l");
     const view_ray ray = view_ray_through(&state.now.camera, 640, 480, 320, 240);
-    const view_hit hit = view_pick_surface(&ray, &world);
+    const view_hit hit = view_pick_surface(&ray, tree);
     assert_true(hit.mesh >= 0);
     const lmp_vec3 point = vec_add(ray.from, vec_scale(ray.direction, hit.distance));
     const lmp_vec3 to = vec_normalize(vec_sub(point, light->position), vec(0, 0, 0));

@@ -152,7 +152,7 @@ static void keys_change_the_side_under_the_pointer(void **unused) {
 static void files_become_materials_where_they_are_dropped(void **unused) {
     (void)unused;
     const view_ray ray = view_ray_through(&state.now.camera, 640, 480, 320, 240);
-    const view_hit hit = view_pick_surface(&ray, &world);
+    const view_hit hit = view_pick_surface(&ray, tree);
     assert_true(hit.mesh >= 0);
     const char *name = world.materials[world.meshes[hit.mesh].material].name;
     at(320, 240);

@@ -9,7 +9,8 @@
 
 struct cpu_scene {
     const scene *scene;
-    trace_bvh *bvh;
+    const trace_bvh *bvh;
+    trace_bvh *own; /* the same tree, or NULL if it is another's */
     cpu_textures *textures;
 };
 
@@ -24,11 +25,12 @@ struct cpu_renderer {
 
 /* --- creation --------------------------------------------------------------------------------- */
 
-cpu_scene *cpu_scene_create(const scene *world, base_error *error) {
+cpu_scene *cpu_scene_create(const scene *world, const trace_bvh *bvh, base_error *error) {
     cpu_scene *s = calloc(1, sizeof *s);
     if (s) {
         s->scene = world;
-        s->bvh = trace_create(world);
+        s->own = bvh ? NULL : trace_create(world);
+        s->bvh = bvh ? bvh : s->own;
         s->textures = cpu_textures_create(world);
     }
     if (s && s->bvh && s->textures)
@@ -41,7 +43,7 @@ cpu_scene *cpu_scene_create(const scene *world, base_error *error) {
 void cpu_scene_destroy(cpu_scene *s) {
     if (!s)
         return;
-    trace_destroy(s->bvh);
+    trace_destroy(s->own);
     cpu_textures_destroy(s->textures);
     free(s);
 }

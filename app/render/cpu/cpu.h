@@ -11,8 +11,9 @@
 /* The tree of a scene and the levels of its textures, which renderers share. */
 typedef struct cpu_scene cpu_scene;
 
-/* Prepares a scene, which must outlive the result; returns NULL on failure. */
-cpu_scene *cpu_scene_create(const scene *scene, base_error *error);
+/* Prepares a scene, which must outlive the result, as must its tree, unless this is NULL and is
+ * built here; returns NULL on failure. */
+cpu_scene *cpu_scene_create(const scene *scene, const trace_bvh *bvh, base_error *error);
 void cpu_scene_destroy(cpu_scene *world);
 const trace_bvh *cpu_scene_bvh(const cpu_scene *world);
 

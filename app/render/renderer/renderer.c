@@ -35,7 +35,13 @@ bool render_device_open(device_kind kind, const char *gl_device, const scene *wo
         d->adopted = false;
         return true;
     }
-    d->cpu = cpu_scene_create(world, error);
+    return render_device_open_cpu(world, NULL, d, error);
+}
+
+bool render_device_open_cpu(const scene *world, const trace_bvh *bvh, render_device *d,
+                            base_error *error) {
+    memset(d, 0, sizeof *d);
+    d->cpu = cpu_scene_create(world, bvh, error);
     if (!d->cpu)
         return false;
     d->kind = DEVICE_CPU;
@@ -63,9 +69,15 @@ void render_device_close(render_device *d) {
     memset(d, 0, sizeof *d);
 }
 
+void render_device_lend(render_device *d, const trace_bvh *bvh) {
+    d->lent = bvh;
+}
+
 const trace_bvh *render_device_bvh(render_device *d) {
     if (d->cpu)
         return cpu_scene_bvh(d->cpu);
+    if (d->lent)
+        return d->lent;
     if (!d->bvh)
         d->bvh = trace_create(d->scene);
     return d->bvh;

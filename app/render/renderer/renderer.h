@@ -20,6 +20,7 @@ typedef struct render_device {
     bool adopted;                /* whether gl belongs to a window */
     cpu_scene *cpu;              /* of DEVICE_CPU */
     trace_bvh *bvh;              /* of DEVICE_GPU, once it is requested */
+    const trace_bvh *lent;       /* to DEVICE_GPU in its place, or NULL */
 } render_device;
 
 /* Opens DEVICE_CPU, or the DEVICE_GPU that `gl_device` names (gpu_context_create). The scene must
@@ -28,9 +29,17 @@ typedef struct render_device {
 bool render_device_open(device_kind kind, const char *gl_device, const scene *scene,
                         render_device *device, base_error *error);
 
+/* Opens DEVICE_CPU with the scene's tree, which must outlive it, as must the scene; NULL means
+ * a tree of its own. */
+bool render_device_open_cpu(const scene *scene, const trace_bvh *bvh, render_device *device,
+                            base_error *error);
+
 /* Makes a DEVICE_GPU of a window's context. */
 void render_device_adopt(const gpu_context *context, const scene *scene, render_device *device);
 void render_device_close(render_device *device);
+
+/* Lets a DEVICE_GPU cast rays by the scene's tree, which must outlive it, instead of its own. */
+void render_device_lend(render_device *device, const trace_bvh *bvh);
 
 /* Returns the scene's tree for rays, built on the first request; NULL if memory ran out. */
 const trace_bvh *render_device_bvh(render_device *device);
