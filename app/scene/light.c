@@ -355,6 +355,57 @@ void scene_light_rotate(lmp_light *light, lmp_vec3 (*rotate)(lmp_vec3 v, const v
     }
 }
 
+/* The smallest rotation from one unit direction to another. */
+typedef struct rotation {
+    lmp_vec3 from, to;
+} rotation;
+
+static lmp_vec3 rotate(lmp_vec3 v, const void *user) {
+    const rotation *r = user;
+    const lmp_vec3 sum = vec_add(r->from, r->to);
+    const float one_plus_cos = 0.5f * vec_dot(sum, sum); /* exact however small */
+    if (one_plus_cos < 1e-6f) {                          /* half a turn, around any axis across */
+        const lmp_vec3 axis = vec_across(r->from);
+        return vec_sub(vec_scale(axis, 2 * vec_dot(axis, v)), v);
+    }
+    const lmp_vec3 axis = vec_cross(r->from, r->to); /* its length is the sine */
+    return vec_add(vec_add(vec_scale(v, one_plus_cos - 1), vec_cross(axis, v)),
+                   vec_scale(axis, vec_dot(axis, v) / one_plus_cos));
+}
+
+/* Returns the unit direction to which a light with a position shines; 0 if to all alike. */
+static lmp_vec3 facing(const lmp_light *light) {
+    const lmp_vec3 none = { 0, 0, 0 };
+    lmp_vec3 normal = none;
+    switch (light->kind) {
+    case LMP_LIGHT_SPOT:
+    case LMP_LIGHT_DISK:
+        return light->direction;
+    case LMP_LIGHT_RECTANGLE:
+        return vec_normalize(vec_cross(light->half[0], light->half[1]), none);
+    case LMP_LIGHT_POLYGON: /* by Newell's method */
+        for (int i = 0; i < light->corner_count; i++)
+            normal = vec_add(
+                normal, vec_cross(light->corner[i], light->corner[(i + 1) % light->corner_count]));
+        return vec_normalize(normal, none);
+    default:
+        return none;
+    }
+}
+
+void scene_light_face(lmp_light *light, lmp_vec3 direction) {
+    rotation r = { facing(light), direction };
+    if (light->kind == LMP_LIGHT_TUBE) {
+        r.from = vec_normalize(light->half[0], vec_across(direction));
+        const lmp_vec3 along = vec_scale(direction, vec_dot(r.from, direction));
+        r.to = vec_normalize(vec_sub(r.from, along), vec_across(direction));
+    } else if (light->two_sided && vec_dot(r.from, direction) < 0) {
+        r.to = vec_scale(direction, -1);
+    }
+    if (vec_dot(r.from, r.from) > 0)
+        scene_light_rotate(light, rotate, &r);
+}
+
 /* --- the ranges ------------------------------------------------------------------------------- */
 
 static bool is_position(const float *v) {

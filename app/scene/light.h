@@ -104,6 +104,10 @@ void scene_light_resize(lmp_light *light, float by);
 void scene_light_rotate(lmp_light *light, lmp_vec3 (*rotate)(lmp_vec3 v, const void *user),
                         const void *user);
 
+/* Rotates a light with a position as little as it takes to shine in a unit direction: a spot or a
+ * flat area by its front, two-sided ones by the nearer side, a tube across its axis. */
+void scene_light_face(lmp_light *light, lmp_vec3 direction);
+
 /* Returns the number of floats of a light's member; a flag has none. */
 int scene_light_count(const lmp_light *light, const scene_light_member *member);
 float *scene_light_value(lmp_light *light, const scene_light_member *member);

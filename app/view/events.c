@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* events.c - what the pointer, the keys, dropped files and time do to the state. */
+#include "app/view/aim.h"
 #include "app/view/panel.h"
 #include "app/view/state.h"
 
@@ -18,13 +19,6 @@
 
 static float scene_diagonal(const scene *world) {
     return vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
-}
-
-static scene_light shown_light(const view_state *s, int index) {
-    scene_light light = s->now.lights[index];
-    if (s->seconds > 0)
-        animation_move(s->paths[s->path], s->numbers[index], s->seconds, &light);
-    return light;
 }
 
 static view_ray pointer_ray(const view_state *s) {
@@ -56,7 +50,7 @@ static int light_at_pointer(const view_state *s) {
 }
 
 static void grab_light(view_state *s, int index) {
-    const scene_light shown = shown_light(s, index);
+    const scene_light shown = view_shown_light(s, index);
     double x, y, scale;
     if (!view_project(&s->now.camera, s->now.width, s->now.height, shown.emitter.position, &x, &y,
                       &scale))
@@ -110,8 +104,12 @@ static void press(view_state *s, const view_event *event) {
         s->drag = VIEW_DRAG_DIVIDER;
         return;
     }
-    const int light = light_at_pointer(s);
+    if (view_aim_begin(s))
+        return;
     s->drag = s->walking ? VIEW_DRAG_LOOK : VIEW_DRAG_ORBIT;
+    if (s->aim != VIEW_AIM_OFF && s->selected >= 0)
+        return; /* the light stays selected while the camera moves between two drags */
+    const int light = light_at_pointer(s);
     s->selected = -1;
     if (light >= 0)
         grab_light(s, light);
@@ -139,13 +137,17 @@ static void move(view_state *s, double x, double y) {
         if (s->selected >= 0)
             drag_light(s);
         break;
+    case VIEW_DRAG_AIM:
+        if (s->selected >= 0)
+            view_aim_follow(s);
+        break;
     case VIEW_DRAG_DIVIDER:
         s->now.divider = fminf(fmaxf((float)(x / s->now.width), 0.02f), 0.98f);
         break;
     }
 }
 
-/* Zooms, walks, or moves a dragged light nearer and farther. */
+/* Zooms, walks, or moves a dragged light nearer and farther, an aimed one to its surface. */
 static void scroll(view_state *s, double steps) {
     const float factor = powf(ZOOM_STEP, (float)steps);
     if (s->drag == VIEW_DRAG_LIGHT && s->selected >= 0) {
@@ -153,6 +155,9 @@ static void scroll(view_state *s, double steps) {
         s->grab_depth /= factor;
         if (!drag_light(s))
             s->grab_depth = depth;
+    } else if (s->drag == VIEW_DRAG_AIM && s->selected >= 0) {
+        s->aim_distance = fminf(s->aim_distance / factor, LMP_LENGTH_MAX);
+        view_aim_follow(s);
     } else if (s->walking && s->now.camera.height == 0) {
         view_fly(&s->now.camera, 0, 0, (float)steps * WALK_STEP * scene_diagonal(s->world));
     } else {
@@ -208,6 +213,18 @@ static void drop(view_state *s, const char *file) {
         view_say(s, "%s", error.text);
 }
 
+static void choose_aim(view_state *s, const char *name) {
+    const int aim = view_find_aim(name);
+    if (aim >= 0 && s->aim != (view_aim)aim)
+        view_choose_aim(s, aim);
+}
+
+/* Lets an aimed light stay as a key, an action or a value has changed it. */
+static void keep_aimed(view_state *s) {
+    if (s->drag == VIEW_DRAG_AIM && s->selected >= 0)
+        s->aimed = s->now.lights[s->selected];
+}
+
 static void resize(view_state *s, int width, int height) {
     if (width < 1 || height < 1)
         return;
@@ -231,6 +248,7 @@ static void take_event(view_state *s, const view_event *event) {
         break;
     case VIEW_KEY:
         press_key(s, event->text);
+        keep_aimed(s);
         break;
     case VIEW_HOLD:
     case VIEW_FREE:
@@ -244,12 +262,17 @@ static void take_event(view_state *s, const view_event *event) {
         break;
     case VIEW_ACT:
         act(s, event->text);
+        keep_aimed(s);
         break;
     case VIEW_SET:
         view_set_by_line(s, event->text);
+        keep_aimed(s);
         break;
     case VIEW_DAMAGE:
         s->requests.redraw = true;
+        break;
+    case VIEW_AIM:
+        choose_aim(s, event->text);
         break;
     case VIEW_SIZE:
         resize(s, (int)event->x, (int)event->y);

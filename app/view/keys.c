@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* keys.c - all actions: their keys, buttons and help. */
 #include "app/scene/vector.h"
+#include "app/view/aim.h"
 #include "app/view/lights.h"
 #include "app/view/panel.h"
 
@@ -292,7 +293,11 @@ const view_key view_keys[] = {
     { "H", NULL, NULL, view_recolor_lights, -1, "Previous hue" },
     { "k", "K", "kind: sphere, point, spot, …", view_change_kind, 1, "Next kind" },
     { "K", NULL, NULL, view_change_kind, -1, "Previous kind" },
-    { "l", "L", "direction: to what is pointed at", view_direct_light, 0, "Aim" },
+    { "l", "L", "direction: to what is pointed at", view_direct_light, 0, "Direct" },
+    { "1", "1  2  3", "drag: reflection, illumination, rim", view_choose_aim, VIEW_AIM_REFLECTION,
+      "Reflection" },
+    { "2", NULL, NULL, view_choose_aim, VIEW_AIM_ILLUMINATION, "Illumination" },
+    { "3", NULL, NULL, view_choose_aim, VIEW_AIM_RIM, "Rim" },
     { "j", "J  Shift J", "paler, purer", view_fade_lights, 1, "Paler" },
     { "J", NULL, NULL, view_fade_lights, -1, "Purer" },
     { NULL, "", "none selected: all of them", NULL, 0, NULL },

@@ -3,6 +3,7 @@
 #include "app/base/file.h"
 #include "app/base/number.h"
 #include "app/image/image.h"
+#include "app/view/aim.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -106,6 +107,10 @@ static bool read_event(const words *w, view_script_line *line) {
     if (w->count != 3 || strlen(w->text[2]) >= sizeof line->text)
         return false;
     strcpy(line->text, w->text[2]);
+    if (strcmp(what, "aim") == 0) {
+        e->kind = VIEW_AIM;
+        return view_find_aim(line->text) >= 0;
+    }
     if (strcmp(what, "shot") == 0) {
         line->kind = VIEW_SCRIPT_SHOT;
         return image_format_of(line->text) == IMAGE_PNG;

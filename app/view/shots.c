@@ -2,6 +2,7 @@
 /* shots.c - files that the viewer writes: screenshots, recordings, its state. */
 #include "app/base/file_json.h"
 #include "app/base/file_writer.h"
+#include "app/view/aim.h"
 #include "app/view/panel.h"
 #include "app/view/ui.h"
 #include "app/view/viewer.h"
@@ -142,6 +143,7 @@ static json_t *ui_to_json(const viewer *v) {
     ui = with_panel(ui, s);
     ui = file_json_with(ui, "sidebar", json_boolean(s->sidebar));
     ui = file_json_with(ui, "places", places_to_json());
+    ui = file_json_with(ui, "aim", file_json_string(view_aim_names[s->aim]));
     ui = file_json_with(ui, "recording", json_boolean(s->recording));
     ui = file_json_with(ui, "recorded", json_integer(v->recorded));
     ui = file_json_with(ui, "message", file_json_string(s->message));

@@ -200,6 +200,13 @@ void view_shown(const view_state *s, view_settings *shown) {
             mute(&shown->lights[i]);
 }
 
+scene_light view_shown_light(const view_state *s, int index) {
+    scene_light light = s->now.lights[index];
+    if (s->seconds > 0)
+        animation_move(s->paths[s->path], s->numbers[index], s->seconds, &light);
+    return light;
+}
+
 int view_side(const view_state *s) {
     return s->now.split == GPU_SPLIT_DIVIDED &&
            s->x >= (double)s->now.divider * (double)s->now.width;

@@ -23,6 +23,7 @@ typedef enum view_event_kind {
     VIEW_ACT,     /* an action, by its name */
     VIEW_SET,     /* a value, by a line for view_set_by_line */
     VIEW_DAMAGE,  /* the window must be drawn again */
+    VIEW_AIM,     /* one of view_aim_names is chosen */
     VIEW_SIZE     /* the image has x times y pixels; none: it is not visible */
 } view_event_kind;
 
@@ -34,7 +35,7 @@ typedef struct view_event {
     view_button button;
     bool shift;       /* held, with a button or a held key */
     char letter;      /* of VIEW_HOLD and VIEW_FREE */
-    const char *text; /* the key, the action, the file, the value, or what is typed */
+    const char *text; /* the key, the action, the file, the aim, the value, or what is typed */
 } view_event;
 
 /* --- the state -------------------------------------------------------------------------------- */
@@ -51,9 +52,19 @@ typedef enum view_drag {
     VIEW_DRAG_PAN,
     VIEW_DRAG_LOOK,
     VIEW_DRAG_LIGHT,
+    VIEW_DRAG_AIM,
     VIEW_DRAG_DIVIDER,
     VIEW_DRAG_SIDEBAR /* something of the interface */
 } view_drag;
+
+/* How a drag over a surface aims the selected light (app/view/aim.h). */
+typedef enum view_aim {
+    VIEW_AIM_OFF,          /* not at all */
+    VIEW_AIM_REFLECTION,   /* the eye sees its mirror image there */
+    VIEW_AIM_ILLUMINATION, /* it faces the surface */
+    VIEW_AIM_RIM,          /* it grazes the surface, from behind */
+    VIEW_AIMS
+} view_aim;
 
 /* The open panel of values (app/view/panel.h), and the text typed into it. */
 enum { VIEW_TYPED_SIZE = 1024 };
@@ -92,9 +103,12 @@ typedef struct view_state {
     lmp_vec3 grab;         /* from the dragged light's animated position to its resting position */
     float grab_depth;      /* of the dragged light's center */
     double grab_x, grab_y; /* from the light's center in the image to the pointer */
-    double x, y;           /* of the pointer */
-    bool held[6], fast;    /* the keys wasdqe; shift with them */
-    bool walking;          /* whether the left button looks around, as inside a building */
+    view_aim aim;
+    scene_light aimed;  /* as it was when the drag began */
+    float aim_distance; /* of an aimed light from the surface */
+    double x, y;        /* of the pointer */
+    bool held[6], fast; /* the keys wasdqe; shift with them */
+    bool walking;       /* whether the left button looks around, as inside a building */
     view_panel panel;
     bool help, overlay, sidebar, recording;
     int camera;                   /* the scene's camera chosen last */
@@ -131,6 +145,9 @@ void view_advance(view_state *state, double seconds);
 
 /* Returns what to draw now: settings with all lights at their animated positions. */
 void view_shown(const view_state *state, view_settings *settings);
+
+/* Returns a light at its animated position. */
+scene_light view_shown_light(const view_state *state, int index);
 
 /* Returns the side that keys act on: the one under the pointer. */
 int view_side(const view_state *state);

@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 out=$1
 home=README.md
-guide="docs/getting-started.md docs/web.md docs/method.md docs/cookbook.md docs/cookbook-shell.md docs/gallery.md docs/viewer.md docs/troubleshooting.md docs/glossary.md"
+guide="docs/getting-started.md docs/web.md docs/method.md docs/cookbook.md docs/cookbook-shell.md docs/gallery.md docs/viewer.md docs/aiming.md docs/troubleshooting.md docs/glossary.md"
 use="docs/engine.md docs/probes.md docs/npm.md docs/webgpu.md docs/python.md docs/build-systems.md docs/scenes.md docs/lights.md docs/areas.md docs/materials.md docs/ggx.md docs/layers.md docs/shading.md docs/fields.md docs/transfer.md docs/shadows.md docs/preintegration.md docs/sequences.md docs/reference.md docs/ruler.md docs/scoreboard.md docs/paper.md docs/formats.md docs/formats-ruler.md docs/migrating.md docs/migrating-engines.md docs/security.md"
 accuracy="docs/accuracy.md docs/benchmarks.md docs/performance-notes.md docs/preintegration-notes.md"
 project="docs/design.md docs/extending.md docs/releasing.md docs/moving.md CONTRIBUTING.md CHANGELOG.md"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # view.sh PART: lampion view in a window. session: by real input, checked step by step, by its state and images;
-# script, shadows, bounces, edit: what scripts do; sidebar: what the mouse does alone; refusals.
+# script, shadows, bounces, edit, aim: what scripts do; sidebar: what the mouse does alone; refusals.
 set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
@@ -232,6 +232,28 @@ test_bounces() {
     cmp bounced.png option.png || fail "the key and --bounces differ"
     cmp bounced.png repeated.png || fail "an image with bounces is repeated otherwise"
     "$PROGRAM" compare direct.png again.png --fail-above max=0 >differ.txt || fail "bounces do not go"
+}
+
+test_aim() {
+    # a light is dragged over the floor, by a key and by a word: the same; then one step back
+    aim='room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 160x90 --samples 1'
+    drag='0.2 move 70 70
+0.3 press left
+0.4 move 90 70
+0.5 release left'
+    printf '0 key Tab\n0.1 key 2\n%s\n1 key Ctrl+Q\n' "$drag" >key.txt
+    printf '0 key Tab\n0.1 aim illumination\n%s\n1 key Ctrl+Q\n' "$drag" >word.txt
+    printf '0 key Tab\n0.1 aim illumination\n%s\n0.6 key Ctrl+Z\n1 key Ctrl+Q\n' "$drag" >undone.txt
+    printf '0 key Ctrl+Q\n' >nothing.txt
+    for script in nothing key word undone; do
+        "$PROGRAM" view $aim --script $script.txt --state state.json || fail "$script.txt ends in $?"
+        value aim >$script.aim
+        sed -n '/"lights"/,/^[[:space:]]*\]/p' state.json >$script.lights
+    done
+    [ "$(cat word.aim)" = '"illumination"' ] || fail "the aim is $(cat word.aim)"
+    cmp -s nothing.lights key.lights && fail "the light has not moved"
+    cmp key.lights word.lights || fail "the key and the word differ"
+    cmp nothing.lights undone.lights || fail "a drag is not undone by one step"
 }
 
 test_edit() {
