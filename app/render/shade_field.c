@@ -165,7 +165,7 @@ static bool want_surfaces(lmp_field *nodes, const render_surfaces *surfaces) {
         for (int y = 0; y < surfaces->height; y++) {
             if (!mine)
                 continue;
-            const size_t count = render_surfaces_positions(surfaces, y, &row);
+            const size_t count = render_surfaces_positions(surfaces, surfaces->y + y, &row);
             const lmp_vec3_array points = { row.position[0], row.position[1], row.position[2],
                                             sizeof(float) };
             lmp_field_want_n(nodes, points, count);

@@ -463,6 +463,50 @@ bool view_compositor_expose(view_compositor *s, const view_settings *settings, f
     return true;
 }
 
+/* Rays that tell how much of a light arrives at a point, and how many all lights may send. */
+enum { SPLIT_RAYS = 1024, SPLIT_RAYS_ALL = 1 << 17 };
+
+/* Makes the shadows of lights, and those of the environment alone. */
+static bool open_split_shadows(view_compositor *s, size_t light_count, shadow *shadows[2],
+                               base_error *error) {
+    const size_t most = SPLIT_RAYS_ALL / (light_count + 1);
+    const shadow_settings many = { .rays = most > SPLIT_RAYS ? SPLIT_RAYS
+                                           : most > 1        ? (int)most
+                                                             : 1,
+                                   .raw = true,
+                                   .apart = true };
+    shadows[0] = render_device_shadow(&s->cpu, NULL, &many, error);
+    shadows[1] = render_device_shadow(&s->cpu, &s->surroundings.around, &many, error);
+    return shadows[0] && shadows[1];
+}
+
+bool view_compositor_split(view_compositor *s, const view_settings *settings, int number, int x,
+                           int y, cpu_split *split, size_t *light_count, base_error *error) {
+    side *own = &s->sides[number];
+    const view_shading *shading = &settings->shading[number];
+    shadow *shadows[2] = { NULL, NULL };
+    render_frame frame;
+    render_pass around = { .run = NULL };
+    bool ok = prepare_environment(s, settings, error) && open_cpu(s, own, error) &&
+              prepare_materials(s, own, settings, shading, error) &&
+              fill_frame(s, settings, shading, 1, &frame, error) &&
+              prepare_field(s, own, shading, &frame, error) &&
+              prepare_bounces(s, settings, &frame.bounces, error);
+    if (ok && settings->shadows &&
+        (ok = open_split_shadows(s, frame.light_count, shadows, error))) {
+        frame.shadow = shadow_pass(shadows[0]);
+        around = shadow_pass(shadows[1]);
+    }
+    if (ok) {
+        frame.samples = 1;
+        *light_count = frame.light_count;
+        ok = renderer_split(own->cpu, &frame, x, y, &around, split, error);
+    }
+    shadow_destroy(shadows[0]);
+    shadow_destroy(shadows[1]);
+    return ok;
+}
+
 static gpu_layout layout_of(const view_settings *settings, float line) {
     return (gpu_layout) { settings->width, settings->height, settings->split, settings->divider,
                           line };

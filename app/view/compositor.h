@@ -3,6 +3,7 @@
 #ifndef LAMPION_VIEW_COMPOSITOR_H
 #define LAMPION_VIEW_COMPOSITOR_H
 
+#include "app/render/renderer/renderer.h"
 #include "app/view/settings.h"
 #include "app/view/tree.h"
 
@@ -48,6 +49,13 @@ bool view_compositor_refine(view_compositor *compositor, const view_settings *se
 /* Determines the exposure that suits the settings. */
 bool view_compositor_expose(view_compositor *compositor, const view_settings *settings,
                             float *exposure, base_error *error);
+
+/* Splits the radiance of a pixel of a side, by what shades it there: its method, bands and
+ * materials, on the CPU whatever the device. Shadows are those of many rays, without a filter. The
+ * lights beyond settings->light_count are the environment's suns; split->lights has room for
+ * SCENE_LIGHTS_MAX. *light_count receives how many there are. */
+bool view_compositor_split(view_compositor *compositor, const view_settings *settings, int side,
+                           int x, int y, cpu_split *split, size_t *light_count, base_error *error);
 
 /* Show the image drawn last in the window, or read it for a screenshot. */
 void view_compositor_show(view_compositor *compositor, const view_settings *settings, float line);

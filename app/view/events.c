@@ -274,6 +274,9 @@ static void take_event(view_state *s, const view_event *event) {
     case VIEW_AIM:
         choose_aim(s, event->text);
         break;
+    case VIEW_SHARES:
+        s->requests.shares = true;
+        break;
     case VIEW_SIZE:
         resize(s, (int)event->x, (int)event->y);
         break;

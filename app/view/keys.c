@@ -220,13 +220,14 @@ enum {
     REQUEST_RELOAD,
     REQUEST_RESTART,
     REQUEST_FULLSCREEN,
-    REQUEST_SAVE
+    REQUEST_SAVE,
+    REQUEST_SHARES
 };
 
 static void request(view_state *s, int what) {
     bool *const requests[] = { &s->requests.quit,       &s->requests.shot,   &s->requests.command,
                                &s->requests.record,     &s->requests.reload, &s->requests.restart,
-                               &s->requests.fullscreen, &s->requests.save };
+                               &s->requests.fullscreen, &s->requests.save,   &s->requests.shares };
     *requests[what] = true;
 }
 
@@ -298,6 +299,7 @@ const view_key view_keys[] = {
       "Reflection" },
     { "2", NULL, NULL, view_choose_aim, VIEW_AIM_ILLUMINATION, "Illumination" },
     { "3", NULL, NULL, view_choose_aim, VIEW_AIM_RIM, "Rim" },
+    { "L", "Shift L", "which ones make what is pointed at", request, REQUEST_SHARES, "Shares" },
     { "j", "J  Shift J", "paler, purer", view_fade_lights, 1, "Paler" },
     { "J", NULL, NULL, view_fade_lights, -1, "Purer" },
     { NULL, "", "none selected: all of them", NULL, 0, NULL },

@@ -88,6 +88,10 @@ static bool read_event(const words *w, view_script_line *line) {
         e->y = w->numbers[2];
         return numbers_at(w, 2, 1, SCROLL_MAX);
     }
+    if (strcmp(what, "shares") == 0) {
+        e->kind = VIEW_SHARES;
+        return w->count == 2;
+    }
     if (w->count < 3 || w->count > 4)
         return false;
     if (strcmp(what, "press") == 0 && w->text[2][0] == '"')

@@ -144,6 +144,8 @@ static json_t *ui_to_json(const viewer *v) {
     ui = file_json_with(ui, "sidebar", json_boolean(s->sidebar));
     ui = file_json_with(ui, "places", places_to_json());
     ui = file_json_with(ui, "aim", file_json_string(view_aim_names[s->aim]));
+    if (s->shares.of)
+        ui = file_json_with(ui, "shares", view_shares_to_json(&s->shares));
     ui = file_json_with(ui, "recording", json_boolean(s->recording));
     ui = file_json_with(ui, "recorded", json_integer(v->recorded));
     ui = file_json_with(ui, "message", file_json_string(s->message));

@@ -90,6 +90,7 @@ bool view_state_open(const scene *world, view_tree *tree, const view_settings *s
 void view_state_close(view_state *s) {
     close_paths(s);
     view_history_clear(&s->history);
+    view_shares_free(&s->shares);
 }
 
 /* Resets the state for another scene, as if the viewer had been started with it. */

@@ -6,6 +6,7 @@
 #include "app/scene/animation.h"
 #include "app/view/history.h"
 #include "app/view/settings.h"
+#include "app/view/shares.h"
 #include "app/view/tree.h"
 
 /* --- events ----------------------------------------------------------------------------------- */
@@ -24,6 +25,7 @@ typedef enum view_event_kind {
     VIEW_SET,     /* a value, by a line for view_set_by_line */
     VIEW_DAMAGE,  /* the window must be drawn again */
     VIEW_AIM,     /* one of view_aim_names is chosen */
+    VIEW_SHARES,  /* asks which lights make what is under the pointer */
     VIEW_SIZE     /* the image has x times y pixels; none: it is not visible */
 } view_event_kind;
 
@@ -43,7 +45,7 @@ typedef struct view_event {
 /* What the window is asked to do: the state machine sets requests, and whoever fulfills one clears
  * it. */
 typedef struct view_requests {
-    bool quit, shot, command, record, reload, restart, fullscreen, expose, redraw, save;
+    bool quit, shot, command, record, reload, restart, fullscreen, expose, redraw, save, shares;
 } view_requests;
 
 typedef enum view_drag {
@@ -110,6 +112,7 @@ typedef struct view_state {
     bool held[6], fast; /* the keys wasdqe; shift with them */
     bool walking;       /* whether the left button looks around, as inside a building */
     view_panel panel;
+    view_shares shares; /* those asked for last */
     bool help, overlay, sidebar, recording;
     int camera;                   /* the scene's camera chosen last */
     char dropped[VIEW_PATH_SIZE]; /* the material dropped last */

@@ -44,6 +44,25 @@ static bool restart(viewer *v, base_error *error) {
     return true;
 }
 
+/* Says which lights make what is under the pointer. */
+static void find_shares(viewer *v) {
+    view_state *s = &v->state;
+    char text[VIEW_MESSAGE_SIZE];
+    base_error error;
+    if (!(s->x >= 0 && s->y >= 0 && s->x < s->now.width && s->y < s->now.height)) {
+        view_say(s, "Point at a surface");
+        return;
+    }
+    view_shown(s, v->shown);
+    if (view_shares_find(v->compositor, v->shown, view_side(s), (int)s->x, (int)s->y, &s->shares,
+                         &error)) {
+        view_shares_describe(&s->shares, text, sizeof text);
+        view_say(s, "%s", text);
+    } else {
+        view_say(s, "%s", error.text);
+    }
+}
+
 static bool fulfill_requests(viewer *v, base_error *error) {
     const view_requests requests = v->state.requests;
     v->state.requests = (view_requests) { .quit = requests.quit, .redraw = requests.redraw };
@@ -57,6 +76,8 @@ static bool fulfill_requests(viewer *v, base_error *error) {
         view_say(&v->state, "%s", error->text);
     if (requests.save)
         view_save_lights(v);
+    if (requests.shares)
+        find_shares(v);
     if (requests.record)
         view_toggle_recording(v);
     if (requests.command && !view_copy_command(v, error))

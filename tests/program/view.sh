@@ -254,6 +254,21 @@ test_aim() {
     cmp -s nothing.lights key.lights && fail "the light has not moved"
     cmp key.lights word.lights || fail "the key and the word differ"
     cmp nothing.lights undone.lights || fail "a drag is not undone by one step"
+    # which lights make a point of the floor: by a key and by a word
+    printf '0 move 80 70\n0.1 key L\n0.3 key Ctrl+Q\n' >key.txt
+    printf '0 move 80 70\n0.1 shares\n0.3 key Ctrl+Q\n' >word.txt
+    for script in key word; do
+        "$PROGRAM" view $aim --script $script.txt --state state.json || fail "$script.txt ends in $?"
+        sed -n '/"shares"/,/^    }/p' state.json >$script.shares
+        says ' % light [01] (sphere)' || fail "the shares are not told: $(value message)"
+    done
+    [ "$(grep -c '"percent"' key.shares)" -ge 2 ] || fail "the lights have no shares: $(cat key.shares)"
+    cmp key.shares word.shares || fail "the key and the word differ"
+    "$PROGRAM" view $aim --script nothing.txt --state state.json || fail "nothing.txt ends in $?"
+    grep -q '"shares"' state.json && fail "shares are told that nobody asked for"
+    printf '0 shares 1\n' >refused.txt
+    "$PROGRAM" view $aim --script refused.txt 2>refused.err && fail "a word after shares is taken"
+    grep -q 'line 1: shares' refused.err || fail "a word after shares: $(cat refused.err)"
 }
 
 test_edit() {

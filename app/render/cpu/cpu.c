@@ -2,6 +2,7 @@
 #include "app/render/cpu/cpu.h"
 
 #include "app/base/timing.h"
+#include "app/render/cpu/split.h"
 #include "app/render/cpu/tiles.h"
 #include "app/render/cpu/whole.h"
 
@@ -101,16 +102,20 @@ static bool size_image(cpu_renderer *r, const render_frame *frame, base_error *e
     return image_create(&r->image, frame->width, frame->height, error);
 }
 
+static cpu_drawing drawing_of(cpu_renderer *r, const render_frame *frame) {
+    return (cpu_drawing) { .frame = frame,
+                           .materials = &r->materials,
+                           .environment = r->environment,
+                           .exposure = frame->samples_exposure,
+                           .image = &r->image,
+                           .view = { r->world->scene, r->world->bvh, r->world->textures, NULL } };
+}
+
 static bool draw(cpu_renderer *r, const render_frame *frame, int first, int end, bool refine,
                  render_times *times, base_error *error) {
-    cpu_drawing d = { .frame = frame,
-                      .materials = &r->materials,
-                      .environment = r->environment,
-                      .samples = refine ? frame->samples : end,
-                      .exposure = frame->samples_exposure,
-                      .image = &r->image,
-                      .view = { r->world->scene, r->world->bvh, r->world->textures, NULL } };
+    cpu_drawing d = drawing_of(r, frame);
     trace_lamps *lights;
+    d.samples = refine ? frame->samples : end;
     if (times)
         *times = (render_times) { .shade = 0 };
     const double start = timing_now();
@@ -137,4 +142,18 @@ bool cpu_render(cpu_renderer *r, const render_frame *frame, int count, render_ti
 bool cpu_refine(cpu_renderer *r, const render_frame *frame, int index, render_times *times,
                 base_error *error) {
     return draw(r, frame, index, index + 1, true, times, error);
+}
+
+bool cpu_split_pixel(cpu_renderer *r, const render_frame *frame, int x, int y,
+                     const render_pass *around, cpu_split *split, base_error *error) {
+    cpu_drawing d = drawing_of(r, frame);
+    trace_lamps *lights;
+    if (!render_frame_check(frame, error))
+        return false;
+    if (!cpu_lights_create(frame, r->world->bvh, &lights))
+        return base_fail(error, NULL, "out of memory");
+    d.view.lights = lights;
+    const bool ok = cpu_split_draw(&d, x, y, around, split, error);
+    trace_lamps_destroy(lights);
+    return ok;
 }

@@ -5,6 +5,7 @@
 #define LAMPION_RENDER_CPU_CPU_H
 
 #include "app/image/image.h"
+#include "app/render/cpu/split.h"
 #include "app/render/surfaces.h"
 #include "app/scene/trace/trace.h"
 
@@ -37,6 +38,13 @@ bool cpu_render(cpu_renderer *renderer, const render_frame *frame, int count, re
 /* Draws sample `index` alone, after those before it; the image is the mean of all so far. */
 bool cpu_refine(cpu_renderer *renderer, const render_frame *frame, int index, render_times *times,
                 base_error *error);
+
+/* Splits the radiance of a pixel of a frame of one sample, by the sums that shade it. The sum of
+ * all is the pixel's; lights whose truncated series ring may have parts below 0, which count less
+ * where shading clamps. `around` casts the shadows of the environment's light, frame->shadow those
+ * of lights; both may be zero, and work tile by tile. */
+bool cpu_split_pixel(cpu_renderer *renderer, const render_frame *frame, int x, int y,
+                     const render_pass *around, cpu_split *split, base_error *error);
 
 /* Returns the linear image that was drawn; the renderer owns it. */
 const image *cpu_image(const cpu_renderer *renderer);

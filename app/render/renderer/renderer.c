@@ -231,6 +231,12 @@ bool renderer_refine(any_renderer *r, const render_frame *frame, int index, rend
                  : cpu_refine(r->cpu, frame, index, times, error);
 }
 
+bool renderer_split(any_renderer *r, const render_frame *frame, int x, int y,
+                    const render_pass *around, cpu_split *split, base_error *error) {
+    return begin_bounces(frame, error) &&
+           cpu_split_pixel(r->cpu, frame, x, y, around, split, error);
+}
+
 bool renderer_read_rgb8(any_renderer *r, const image_display *display, unsigned char *rgb8,
                         render_times *times, base_error *error) {
     if (r->gl)

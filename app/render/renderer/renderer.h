@@ -108,6 +108,10 @@ bool renderer_draw(any_renderer *renderer, const render_frame *frame, render_tim
 bool renderer_refine(any_renderer *renderer, const render_frame *frame, int index,
                      render_times *times, base_error *error);
 
+/* Splits a pixel as cpu_split_pixel does; the renderer must be one on DEVICE_CPU. */
+bool renderer_split(any_renderer *renderer, const render_frame *frame, int x, int y,
+                    const render_pass *around, cpu_split *split, base_error *error);
+
 /* Read the image, tone-mapped, to 8-bit RGB of 3 * width * height bytes, rows from the top; and
  * linear, in which case *image is created. */
 bool renderer_read_rgb8(any_renderer *renderer, const image_display *display, unsigned char *rgb8,
