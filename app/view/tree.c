@@ -3,6 +3,7 @@
 #include "app/scene/instance.h"
 #include "app/scene/vector.h"
 
+#include <omp.h>
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -26,6 +27,9 @@ view_tree *view_tree_begin(const scene *world, base_error *error) {
         return NULL;
     }
     tree->scene = world;
+    /* LLVM's OpenMP takes the first thread that calls it for the initial one; were that the
+     * builder, its end would be that of all locks. */
+    omp_get_max_threads();
     tree->building = pthread_create(&tree->builder, NULL, build, tree) == 0;
     if (!tree->building)
         build(tree);
