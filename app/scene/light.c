@@ -397,8 +397,7 @@ void scene_light_face(lmp_light *light, lmp_vec3 direction) {
     rotation r = { facing(light), direction };
     if (light->kind == LMP_LIGHT_TUBE) {
         r.from = vec_normalize(light->half[0], vec_across(direction));
-        const lmp_vec3 along = vec_scale(direction, vec_dot(r.from, direction));
-        r.to = vec_normalize(vec_sub(r.from, along), vec_across(direction));
+        r.to = vec_reject(r.from, direction);
     } else if (light->two_sided && vec_dot(r.from, direction) < 0) {
         r.to = vec_scale(direction, -1);
     }

@@ -80,4 +80,10 @@ static inline lmp_vec3 vec_across(lmp_vec3 n) {
     return vec_normalize(vec_cross(axis, n), vec(1.0f, 0.0f, 0.0f));
 }
 
+/* Returns the unit vector along what of v is perpendicular to the unit vector n, or any such one if
+ * nothing is. */
+static inline lmp_vec3 vec_reject(lmp_vec3 v, lmp_vec3 n) {
+    return vec_normalize(vec_sub(v, vec_scale(n, vec_dot(v, n))), vec_across(n));
+}
+
 #endif

@@ -25,19 +25,14 @@ int view_find_aim(const char *name) {
 
 /* --- directions ------------------------------------------------------------------------------- */
 
-/* Removes from a vector what lies along a unit direction, and makes it unit. */
-static lmp_vec3 across(lmp_vec3 v, lmp_vec3 along) {
-    return vec_normalize(vec_sub(v, vec_scale(along, vec_dot(v, along))), vec_across(along));
-}
-
 lmp_vec3 view_aim_direction(view_aim aim, lmp_vec3 normal, lmp_vec3 view) {
     /* interpolated normals may turn away from the eye near a silhouette */
-    const lmp_vec3 n = vec_dot(normal, view) > 0 ? normal : across(normal, view);
+    const lmp_vec3 n = vec_dot(normal, view) > 0 ? normal : vec_reject(normal, view);
     if (aim == VIEW_AIM_ILLUMINATION)
         return n;
     if (aim == VIEW_AIM_REFLECTION)
         return vec_normalize(vec_sub(vec_scale(n, 2 * vec_dot(n, view)), view), n);
-    const lmp_vec3 away = across(vec_scale(view, -1), n);
+    const lmp_vec3 away = vec_reject(vec_scale(view, -1), n);
     return vec_normalize(
         vec_add(vec_scale(n, RIM_SINE), vec_scale(away, sqrtf(1 - RIM_SINE * RIM_SINE))), n);
 }
@@ -67,8 +62,7 @@ void view_choose_aim(view_state *s, int aim) {
 }
 
 static bool find_point(const view_state *s, view_ray *ray, view_hit *hit, lmp_vec3 *point) {
-    *ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
-    *hit = view_pick_surface(ray, s->tree);
+    *hit = view_hit_at_pointer(s, ray);
     *point = vec_add(ray->from, vec_scale(ray->direction, hit->distance));
     return hit->mesh >= 0;
 }

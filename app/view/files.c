@@ -16,13 +16,9 @@ static const char *base_name(const char *file) {
 
 /* --- materials -------------------------------------------------------------------------------- */
 
-static view_hit hit_at_pointer(const view_state *s) {
-    const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
-    return view_pick_surface(&ray, s->tree);
-}
-
 int view_material_at_pointer(const view_state *s) {
-    const view_hit hit = hit_at_pointer(s);
+    view_ray ray;
+    const view_hit hit = view_hit_at_pointer(s, &ray);
     return hit.mesh < 0 ? 0 : (int)s->world->meshes[hit.mesh].material;
 }
 
@@ -42,7 +38,8 @@ bool view_replace_material(view_state *s, const char *name, const char *replacem
 
 /* Gives the material in a file to the object under the pointer. */
 static bool take_material(view_state *s, const char *file, base_error *error) {
-    const view_hit hit = hit_at_pointer(s);
+    view_ray ray;
+    const view_hit hit = view_hit_at_pointer(s, &ray);
     if (hit.mesh < 0)
         return base_fail(error, base_name(file), "is a material: drop it onto an object");
     if (!view_replace_material(s, s->world->materials[s->world->meshes[hit.mesh].material].name,

@@ -122,8 +122,8 @@ const char *const view_known_materials[] = {
 };
 
 static void change_material(view_state *s, int step) {
-    const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
-    const view_hit hit = view_pick_surface(&ray, s->tree);
+    view_ray ray;
+    const view_hit hit = view_hit_at_pointer(s, &ray);
     base_error error;
     if (hit.mesh < 0) {
         view_say(s, "Point at an object to change its material");
@@ -329,3 +329,7 @@ const view_key view_keys[] = {
     { "Ctrl+Q", "Ctrl Q", "quit", request, REQUEST_QUIT, "Quit" },
     { NULL, NULL, NULL, NULL, 0, NULL },
 };
+
+bool view_is_heading(const view_key *row) {
+    return row->shown && !row->help;
+}

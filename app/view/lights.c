@@ -13,7 +13,7 @@
 #define COPY_DISTANCE  0.03f /* of the scene's diagonal, at least */
 #define FRAMED_RADIUS  0.1f  /* of the scene's diagonal, at least */
 
-static float scene_diagonal(const scene *world) {
+float view_scene_diagonal(const scene *world) {
     return fmaxf(vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum))), 1e-6f);
 }
 
@@ -119,7 +119,7 @@ static bool is_selected(view_state *s) {
 }
 
 static lmp_light new_light(const view_state *s, lmp_light_kind kind) {
-    return scene_light_model(kind, NEW_IRRADIANCE, scene_diagonal(s->world));
+    return scene_light_model(kind, NEW_IRRADIANCE, view_scene_diagonal(s->world));
 }
 
 static view_ray pointer_ray(const view_state *s) {
@@ -170,7 +170,7 @@ void view_copy_light(view_state *s, int unused) {
     light.hidden = 0;
     if (scene_light_has(&light, SCENE_LIGHT_POSITION))
         light.emitter.position.x += fmaxf(2.5f * scene_light_extent(&light.emitter),
-                                          COPY_DISTANCE * scene_diagonal(s->world));
+                                          COPY_DISTANCE * view_scene_diagonal(s->world));
     append(s, &light);
 }
 
@@ -243,6 +243,6 @@ void view_frame_light(view_state *s, int unused) {
         return;
     const lmp_light *light = &s->now.lights[s->selected].emitter;
     const float extent = scene_light_extent(light),
-                radius = extent > 0 ? 10 * extent : FRAMED_RADIUS * scene_diagonal(s->world);
+                radius = extent > 0 ? 10 * extent : FRAMED_RADIUS * view_scene_diagonal(s->world);
     view_frame(&s->now.camera, light->position, radius, (float)s->now.width / (float)s->now.height);
 }

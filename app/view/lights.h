@@ -11,6 +11,9 @@ void view_brighten_lights(view_state *state, int sign);
 void view_recolor_lights(view_state *state, int sign);
 void view_fade_lights(view_state *state, int sign);
 
+/* Returns the diagonal of a scene's box, above 0. */
+float view_scene_diagonal(const scene *world);
+
 void view_select_light(view_state *state, int step);
 
 /* Adds a light over the surface under the pointer; the next ones act on the selected light only. */

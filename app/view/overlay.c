@@ -51,15 +51,11 @@ typedef struct help_layout {
     double keys, texts; /* widths */
 } help_layout;
 
-static bool is_heading(const view_key *row) {
-    return !row->help;
-}
-
 static int list_rows(help_layout *l) {
     int count = 0;
     for (const view_key *key = view_keys; key->key || key->shown; key++)
         if (key->shown && count < HELP_ROWS_MAX) {
-            if (!is_heading(key)) {
+            if (!view_is_heading(key)) {
                 l->keys = fmax(l->keys, width_of(key->shown) + ui_text_height());
                 l->texts = fmax(l->texts, width_of(key->help));
             }
@@ -76,7 +72,8 @@ static int break_columns(help_layout *l, int count, int columns) {
         const int wanted = count * c / columns, from = l->first[c - 1];
         int best = from;
         for (int i = from + 1; i < count; i++)
-            if (is_heading(l->rows[i]) && (best == from || abs(i - wanted) < abs(best - wanted)))
+            if (view_is_heading(l->rows[i]) &&
+                (best == from || abs(i - wanted) < abs(best - wanted)))
                 best = i;
         l->first[c] = best;
     }
@@ -103,8 +100,8 @@ static void write_help(const help_layout *l, const view_box *box, double size) {
         for (int i = l->first[c]; i < l->first[c + 1]; i++) {
             const view_key *row = l->rows[i];
             const double y = top + (i - l->first[c] + 2) * LINE * em;
-            ui_write(x, y, row->shown, size, 0, is_heading(row) ? UI_ACCENT : UI_INK);
-            if (!is_heading(row))
+            ui_write(x, y, row->shown, size, 0, view_is_heading(row) ? UI_ACCENT : UI_INK);
+            if (!view_is_heading(row))
                 ui_write(x + size * l->keys, y, row->help, size, 0, UI_PALE);
         }
     }

@@ -126,7 +126,7 @@ static json_t *with_place(json_t *places, const char *name) {
 static json_t *places_to_json(void) {
     json_t *places = with_place(json_object(), VIEW_SIDEBAR_TITLE);
     for (const view_key *row = view_keys; row->key || row->shown; row++) {
-        const char *name = row->act ? row->name : row->help ? NULL : row->shown;
+        const char *name = row->act ? row->name : view_is_heading(row) ? row->shown : NULL;
         if (name)
             places = with_place(places, name);
     }

@@ -3,6 +3,7 @@
 #include "app/render/renderer/bounces.h"
 #include "app/scene/vector.h"
 #include "app/scene/world.h"
+#include "app/view/lights.h"
 #include "app/view/ui.h"
 #include "app/view/viewer.h"
 
@@ -12,15 +13,11 @@
 
 /* --- actions ---------------------------------------------------------------------------------- */
 
-static bool is_heading(const view_key *row) {
-    return !row->key && !row->help;
-}
-
-/* Puts the buttons of the rows below a heading, each with its help and key as the tooltip; returns
- * the next heading. */
-static const view_key *put_buttons(view_state *s, const view_key *heading) {
-    const view_key *row = heading + 1, *told = row;
-    for (; (row->key || row->shown) && !is_heading(row); row++) {
+/* Puts the buttons of the rows below a heading, each with its help and key as the tooltip. */
+static void put_buttons(view_state *s, const view_key *heading) {
+    const view_key *told = heading;
+    for (const view_key *row = heading + 1; (row->key || row->shown) && !view_is_heading(row);
+         row++) {
         char tip[128];
         if (row->help)
             told = row;
@@ -30,14 +27,13 @@ static const view_key *put_buttons(view_state *s, const view_key *heading) {
         if (ui_button(row->name, tip))
             view_handle(s, &(view_event) { .kind = VIEW_ACT, .text = row->name });
     }
-    return row;
 }
 
 /* Returns the heading after this one. */
 static const view_key *next_heading(const view_key *row) {
     do
         row++;
-    while ((row->key || row->shown) && !is_heading(row));
+    while ((row->key || row->shown) && !view_is_heading(row));
     return row;
 }
 
@@ -278,7 +274,6 @@ static void put_lights(viewer *v) {
     view_state *s = &v->state;
     const char *kinds[SCENE_LIGHT_KIND_COUNT + 1] = { NULL };
     const int count = (int)s->now.light_count;
-    const lmp_vec3 lo = vec_load(s->world->minimum), hi = vec_load(s->world->maximum);
     char item[96], path[32];
     for (int i = 0; i < SCENE_LIGHT_KIND_COUNT; i++)
         kinds[i] = scene_light_kinds[i].name;
@@ -300,7 +295,7 @@ static void put_lights(viewer *v) {
     put_choice(s, "kind", path, kinds, (int)s->now.lights[s->selected].emitter.kind);
     const lmp_light_kind kind = s->now.lights[s->selected].emitter.kind;
     for (const scene_light_member *m = scene_light_kinds[kind].members; m->name; m++)
-        put_member(s, m, fmaxf(vec_length(vec_sub(hi, lo)), 1e-6f));
+        put_member(s, m, view_scene_diagonal(s->world));
 }
 
 /* --- statistics ------------------------------------------------------------------------------- */

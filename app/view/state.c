@@ -182,6 +182,12 @@ void view_undo(view_state *s, int step) {
 
 /* --- what is shown ---------------------------------------------------------------------------- */
 
+/* Moves a light from where it rests to where it is in the animation. */
+static void move_light(const view_state *s, size_t index, scene_light *light) {
+    if (s->seconds > 0)
+        animation_move(s->paths[s->path], s->numbers[index], s->seconds, light);
+}
+
 /* Turns a light off. */
 static void mute(scene_light *light) {
     lmp_light *e = &light->emitter;
@@ -193,9 +199,8 @@ static void mute(scene_light *light) {
 
 void view_shown(const view_state *s, view_settings *shown) {
     memcpy(shown, &s->now, view_settings_size(&s->now));
-    if (s->seconds > 0)
-        for (size_t i = 0; i < shown->light_count; i++)
-            animation_move(s->paths[s->path], s->numbers[i], s->seconds, &shown->lights[i]);
+    for (size_t i = 0; i < shown->light_count; i++)
+        move_light(s, i, &shown->lights[i]);
     for (size_t i = 0; i < shown->light_count; i++)
         if (s->solo && s->selected >= 0 ? i != (size_t)s->selected : s->muted[i])
             mute(&shown->lights[i]);
@@ -203,9 +208,13 @@ void view_shown(const view_state *s, view_settings *shown) {
 
 scene_light view_shown_light(const view_state *s, int index) {
     scene_light light = s->now.lights[index];
-    if (s->seconds > 0)
-        animation_move(s->paths[s->path], s->numbers[index], s->seconds, &light);
+    move_light(s, (size_t)index, &light);
     return light;
+}
+
+view_hit view_hit_at_pointer(const view_state *s, view_ray *ray) {
+    *ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
+    return view_pick_surface(ray, s->tree);
 }
 
 int view_side(const view_state *s) {

@@ -155,6 +155,9 @@ scene_light view_shown_light(const view_state *state, int index);
 /* Returns the side that keys act on: the one under the pointer. */
 int view_side(const view_state *state);
 
+/* Returns the surface under the pointer, and the ray through it. */
+view_hit view_hit_at_pointer(const view_state *state, view_ray *ray);
+
 /* --- files.c: files that are opened ----------------------------------------------------------- */
 
 /* Opens a scene, lights or a material, dropped or named in the panel. */
@@ -202,6 +205,9 @@ typedef struct view_key {
     const char *name; /* on the button, and in scripts; NULL: that of an earlier row */
 } view_key;
 extern const view_key view_keys[]; /* ended by a row of NULLs */
+
+/* Whether a row is a heading, which the rows after it belong to. */
+bool view_is_heading(const view_key *row);
 
 /* The materials of the key T: the scene's own, some others, then NULL. */
 extern const char *const view_known_materials[];
