@@ -4,26 +4,29 @@
 #ifndef LAMPION_BASE_TABLES_FEW_H
 #define LAMPION_BASE_TABLES_FEW_H
 
+#include "src/base/unroll.h"
+
 #include <lampion/base.h>
 
-/* Entries of lmpi_table_a and lmpi_table_b for registers of four: A_lm and B_lm of m = 1, 2, 3 and
- * 0; the factors of 1, y, z and x for (0, 0), (1, -1), (1, 0) and (1, 1); and q_4^4 twice, then
- * q_5^4 / z and q_5^5, each twice. */
+/* Scales of coefficients that are products (single_values_tmpl.h): the norm times |m| for m = -4 …
+ * -2, whose sines have it as a factor; and what those products take away, four coefficients or four
+ * orders m side by side. */
 #define LMPI_TABLE_FEW_BANDS 6
-extern const float lmpi_table_few_a[LMPI_TABLE_FEW_BANDS][4];
-extern const float lmpi_table_few_b[LMPI_TABLE_FEW_BANDS][4];
-extern const float lmpi_table_few_low[4];
-extern const float lmpi_table_few_high[2][4];
+extern LMPI_HIDDEN const float lmpi_table_few_scale[LMPI_TABLE_FEW_BANDS * LMPI_TABLE_FEW_BANDS];
+extern LMPI_HIDDEN const float lmpi_table_few_less[6][4];
 
-/* Factors of (2, -2) … (2, 1), and what is added before to xy, yz, z² and xz. */
-extern const float lmpi_table_few_second[2][4];
-
-/* lmpi_table_quarter of bands 2 to 5 for registers of 16 lanes, with m in lane 8 + m. A lane adds
- * up, term after term, lmpi_table_quarter_terms[l - 2] times the lane that lmpi_table_quarter_lanes
- * names. Missing terms are 0. */
-#define LMPI_TABLE_QUARTER_LANES 16
-extern const float lmpi_table_quarter_terms[4][3][LMPI_TABLE_QUARTER_LANES];
-extern const int32_t lmpi_table_quarter_lanes[4][3][LMPI_TABLE_QUARTER_LANES];
+/* Constants by which few bands are rotated (single_rotate_tmpl.h): x, y and z of eleven axes, of
+ * which the first 2l+1 tell band l; the norms of lmpi_table_norm in the order of coefficients; the
+ * squares of the positive roots of q_l^m over that norm by l and m, the greater first; and for l =
+ * 2 … 5 the matrix that makes coefficients of values, column by column. What is not there is 0. */
+#define LMPI_TABLE_ROTATE_AXES 16 /* whole registers */
+extern LMPI_HIDDEN const float lmpi_table_rotate_axes[3][LMPI_TABLE_ROTATE_AXES];
+extern LMPI_HIDDEN const float lmpi_table_rotate_norms[LMPI_TABLE_FEW_BANDS * LMPI_TABLE_FEW_BANDS];
+extern LMPI_HIDDEN const float lmpi_table_rotate_squares[LMPI_TABLE_FEW_BANDS][LMPI_TABLE_FEW_BANDS]
+                                                        [2];
+extern LMPI_HIDDEN const float lmpi_table_rotate_inverse[LMPI_TABLE_FEW_BANDS - 2]
+                                                        [2 * LMPI_TABLE_FEW_BANDS - 1]
+                                                        [LMPI_TABLE_ROTATE_AXES];
 
 /* Constants of products of few bands, at the heights of Gauss's rule that is exact for three such
  * functions; heights of the lower half are mirrored. `in` holds q_l^m r^m by m, then l, with r the
@@ -34,9 +37,10 @@ extern const int32_t lmpi_table_quarter_lanes[4][3][LMPI_TABLE_QUARTER_LANES];
 #define LMPI_TABLE_PRODUCT_HEIGHTS 8
 #define LMPI_TABLE_PRODUCT_COLUMNS (LMPI_TABLE_PRODUCT_BANDS * (LMPI_TABLE_PRODUCT_BANDS + 1) / 2)
 #define LMPI_TABLE_PRODUCT_VALUES  (LMPI_TABLE_PRODUCT_BANDS * LMPI_TABLE_PRODUCT_BANDS)
-extern const float lmpi_table_product_in[LMPI_TABLE_PRODUCT_COLUMNS][LMPI_TABLE_PRODUCT_HEIGHTS];
-extern const float lmpi_table_product_out[LMPI_TABLE_PRODUCT_VALUES]
-                                         [LMPI_TABLE_PRODUCT_HEIGHTS / 2];
+extern LMPI_HIDDEN const float lmpi_table_product_in[LMPI_TABLE_PRODUCT_COLUMNS]
+                                                    [LMPI_TABLE_PRODUCT_HEIGHTS];
+extern LMPI_HIDDEN const float lmpi_table_product_out[LMPI_TABLE_PRODUCT_VALUES]
+                                                     [LMPI_TABLE_PRODUCT_HEIGHTS / 2];
 
 static inline int lmpi_table_product_index(int l, int m) {
     return m * LMPI_TABLE_PRODUCT_BANDS - m * (m - 1) / 2 + l - m;

@@ -6,6 +6,14 @@
 #define LMPI_INLINE   static inline __attribute__((always_inline))
 #define LMPI_NOINLINE __attribute__((noinline))
 
+/* Says that a variable lies in the library itself, so that reading it takes one instruction, not
+ * two: -fvisibility=hidden says it of definitions only. */
+#ifdef __ELF__
+#define LMPI_HIDDEN __attribute__((visibility("hidden")))
+#else
+#define LMPI_HIDDEN
+#endif
+
 /* Unrolls a loop of constant length whole; for a constant number of bands that gives straight-line
  * code, which takes compilers minutes. Builds whose speed matters to nobody define
  * LMPI_ROLLED_LOOPS (LAMPION_UNROLL=OFF). */

@@ -3,6 +3,7 @@
 #ifndef LAMPION_KERNELS_DISPATCH_H
 #define LAMPION_KERNELS_DISPATCH_H
 
+#include "src/base/unroll.h"
 #include "src/kernels/kernels.h"
 #include "src/kernels/single.h"
 
@@ -14,7 +15,7 @@ unsigned lmpi_kernels_init(lmpi_kernels *kernels, unsigned cpu_flags);
 
 /* The table in use: the one that lmp_cpu_limit chose, else the best, which the first call finds.
  * Inline, because a function call would take as long as evaluating a few bands. */
-extern _Atomic(const lmpi_kernels *) lmpi_kernel_table;
+extern LMPI_HIDDEN _Atomic(const lmpi_kernels *) lmpi_kernel_table;
 const lmpi_kernels *lmpi_kernels_find(void);
 static inline const lmpi_kernels *lmpi_kernels_get(void) {
     const lmpi_kernels *kernels = atomic_load_explicit(&lmpi_kernel_table, memory_order_acquire);

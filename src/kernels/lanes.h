@@ -17,7 +17,6 @@
  *   vf_number          a number that is the same in every lane, as an operand in memory that costs
  *                      no instruction: AVX-512 broadcasts it as it is read, the others read it
  *                      broadcast
- *   vf4_per_root       1 / sqrt of four numbers
  *   half_pack, half_unpack
  *                      LMPI_LANES floats as 16 bits, and back
  *   texel_rows, texel_columns, TEXEL_NUMBER

@@ -3,7 +3,14 @@
 #ifndef LAMPION_KERNELS_LANES_4_ANY_H
 #define LAMPION_KERNELS_LANES_4_ANY_H
 
+#include <math.h>
+
 #define LMPI_STREAMS 0
+
+LMPI_INLINE void vf4_per_root(const vf4 *of, vf4 *per) {
+    for (int i = 0; i < 4; i++)
+        (*per)[i] = 1 / sqrtf((*of)[i]);
+}
 
 LMPI_INLINE vf pair_products(const int16_t *const *from, vf columns) {
     int16_t weights[2 * LMPI_LANES];

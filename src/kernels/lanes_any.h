@@ -3,13 +3,6 @@
 #ifndef LAMPION_KERNELS_LANES_ANY_H
 #define LAMPION_KERNELS_LANES_ANY_H
 
-#include <math.h>
-
-LMPI_INLINE void vf4_per_root(const vf4 *of, vf4 *per) {
-    for (int i = 0; i < 4; i++)
-        (*per)[i] = 1 / sqrtf((*of)[i]);
-}
-
 LMPI_INLINE void texel_rows(const int16_t *from, size_t row, const uint32_t weights[2],
                             texel_lanes sums[TEXEL_PARTS]) {
     int32_t totals[TEXEL_NUMBERS] = { 0 };

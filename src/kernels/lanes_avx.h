@@ -5,10 +5,6 @@
 
 #include <immintrin.h>
 
-LMPI_INLINE void vf4_per_root(const vf4 *of, vf4 *per) {
-    *per = (vf4)_mm_div_ps(_mm_set1_ps(1), _mm_sqrt_ps((__m128)*of));
-}
-
 /* The first `count` of eight lanes, 0 … 7, by halves: AMD's cores take a masked store apart into
  * dozens of operations. */
 LMPI_INLINE void vf_store_first_of_eight(float *to, __m256 half, int count) {

@@ -4,16 +4,9 @@
 #include "src/kernels/lanes.h"
 #include "src/kernels/single.h"
 #include "src/kernels/single_product_tmpl.h"
-#if LMPI_LANES == 16
-#include "src/kernels/single_rotate_lanes_tmpl.h"
-#else
-#include "src/kernels/single_bands_tmpl.h"
-#endif
 #include "src/kernels/single_rotate_tmpl.h"
 #include "src/kernels/single_rotate_z_tmpl.h"
 #include "src/kernels/single_values_tmpl.h"
-
-typedef float single_eight __attribute__((vector_size(32)));
 
 /* --- sums ------------------------------------------------------------------------------------- */
 

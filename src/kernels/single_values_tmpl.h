@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* single_values_tmpl.h - Y_lm of one direction and few bands, four orders m side by side; what
- * comes out lies in registers as coefficients do, ready to be stored or multiplied with a color. */
+/* single_values_tmpl.h - Y_lm of one direction and few bands, four coefficients side by side, each
+ * four a product of two or three known ones; what comes out lies in registers as coefficients do,
+ * ready to be stored or multiplied with a color. */
 #ifndef LAMPION_KERNELS_SINGLE_VALUES_TMPL_H
 #define LAMPION_KERNELS_SINGLE_VALUES_TMPL_H
 
@@ -21,16 +22,9 @@ typedef struct single_values {
     float last;
 } single_values;
 
-/* (x + iy)^m for m = 1, 2, 3 and 0, and in `high` cosine and sine of 4, then of 5. The sine of 0 is
- * arbitrary. */
-typedef struct single_azimuths {
-    single_four cosine, sine, high;
-} single_azimuths;
-
-/* A band's values: the azimuths' cosines and sines times q_l^m. */
-typedef struct single_band {
-    single_four cosine, sine, high;
-} single_band;
+/* The band of the first of four coefficients, and that of the three others. */
+static const int single_bands[SINGLE_FOURS][2] = { { 0, 1 }, { 2, 2 }, { 2, 3 }, { 3, 3 }, { 4, 4 },
+                                                   { 4, 4 }, { 4, 5 }, { 5, 5 }, { 5, 5 } };
 
 /* Loads x, y, z, 0. Compilers split a struct in registers by way of memory, but not a double. */
 LMPI_INLINE void single_load_vector(const lmp_vec3 *v, single_four *to) {
@@ -43,128 +37,101 @@ LMPI_INLINE void single_load_vector(const lmp_vec3 *v, single_four *to) {
     (*to)[2] = v->z;
 }
 
-/* Multiplies two powers, a cosine and a sine each, by another, whose cosine c holds in every lane;
- * s holds its sine, negated in the first lane of each two. */
-LMPI_INLINE void single_rotate_powers(const single_four *of, const single_four *c,
-                                      const single_four *s, single_four *to) {
-    *to = *of * *c + __builtin_shufflevector(*of, *of, 1, 0, 3, 2) * *s;
+LMPI_INLINE void single_load_four(const float from[4], single_four *to) {
+    memcpy(to, from, sizeof *to);
 }
 
-LMPI_INLINE void single_azimuths_of(int bands, const single_four *direction, single_azimuths *to) {
-    const single_four w = *direction, one = { 1, 0, 0, 0 }, signs = { -1, 1, -1, 1 };
-    const single_four x = __builtin_shufflevector(w, w, 0, 0, 0, 0);
-    const single_four y = signs * __builtin_shufflevector(w, w, 1, 1, 1, 1);
-    const single_four start = __builtin_shufflevector(one, w, 0, 1, 4, 5);
-    single_four first, second, third;
-    single_rotate_powers(&start, &x, &y, &first); /* powers m = 1 and 2 */
-    const single_four c = __builtin_shufflevector(first, first, 2, 2, 2, 2);
-    const single_four s = signs * __builtin_shufflevector(first, first, 3, 3, 3, 3);
-    single_rotate_powers(&first, &c, &s, &second);
-    to->cosine = __builtin_shufflevector(__builtin_shufflevector(first, second, 0, 2, 4, 4), one, 0,
-                                         1, 2, 4);
-    to->sine = __builtin_shufflevector(first, second, 1, 3, 5, 5);
-    third = second;
-    if (bands > 5)
-        single_rotate_powers(&second, &c, &s, &third);
-    to->high = __builtin_shufflevector(second, third, 2, 3, 4, 5);
-}
-
-/* Computes q_l^m for m = 1, 2, 3 and 0 by the recurrence of tables.h. */
-LMPI_INLINE void single_columns_of(int bands, const single_four *direction, single_four *columns) {
-    const single_four z = __builtin_shufflevector(*direction, *direction, 2, 2, 2, 2);
-    single_four a, b;
-    columns[0] = (single_four) { 0, 0, 0, lmpi_table_diagonal[0] };
-    LMPI_UNROLL for (int l = 1; l < bands; l++) {
-        memcpy(&a, lmpi_table_few_a[l], sizeof a);
-        columns[l] = a * z * columns[l - 1];
-        if (l > 1) {
-            memcpy(&b, lmpi_table_few_b[l], sizeof b);
-            columns[l] += b * columns[l - 2];
-        }
-        if (l < 4)
-            columns[l][l - 1] = lmpi_table_diagonal[l];
-    }
-}
-
-LMPI_INLINE void single_band_of(int l, const single_four *direction, const single_azimuths *by,
-                                const float *factors, const single_four *column, single_band *to) {
-    const single_four q = factors ? *column * factors[l] : *column;
-    to->cosine = q * by->cosine;
-    to->sine = q * by->sine;
-    if (l < 4)
+/* Computes coefficients over their scales (tables_few.h) up to those of four bands: products of
+ * two or three of x, y, z and sums of their squares. */
+LMPI_INLINE void single_products(int bands, const single_four *direction, single_values *to) {
+    const single_four w = *direction, squares = w * w, one = { 1, 1, 1, 1 };
+    single_four second, third;
+    to->at[0] = __builtin_shufflevector(w, one, 4, 1, 2, 0);
+    if (bands == 2)
         return;
-    const single_four ones = { 1, 1, 1, 1 };
-    single_four high;
-    memcpy(&high, lmpi_table_few_high[l - 4], sizeof high);
-    if (l == 5)
-        high *= __builtin_shufflevector(*direction, ones, 2, 2, 4, 4);
-    to->high = (factors ? high * factors[l] : high) * by->high;
+    single_load_four(lmpi_table_few_less[0], &second);
+    /* xy, yz, z² and xz */
+    to->at[1] =
+        __builtin_shufflevector(w, w, 0, 1, 2, 0) * __builtin_shufflevector(w, w, 1, 2, 2, 2) -
+        second;
+    to->last = squares[0] - squares[1];
+    if (bands == 3)
+        return;
+    single_load_four(lmpi_table_few_less[1], &second);
+    single_load_four(lmpi_table_few_less[2], &third);
+    /* 1, y, z, y times x², x², xy, z² less y², y², 0, 1; and z, x, z, x times z², z², x², x² less
+     * 1, 1, y², y²; with factors */
+    second *= __builtin_shufflevector(squares, one, 1, 1, 4, 4);
+    third *= __builtin_shufflevector(one, squares, 0, 0, 5, 5);
+    to->at[2] =
+        __builtin_shufflevector(w, one, 4, 1, 2, 1) *
+        (__builtin_shufflevector(w, w, 0, 0, 0, 2) * __builtin_shufflevector(w, w, 0, 0, 1, 2) -
+         second);
+    to->at[3] = __builtin_shufflevector(w, w, 2, 0, 2, 0) *
+                (__builtin_shufflevector(squares, squares, 2, 2, 0, 0) - third);
 }
 
-/* Computes bands 0 and 1. */
-LMPI_INLINE void single_low(const single_four *direction, const float *factors, single_four *to) {
-    const single_four one = { 1, 1, 1, 1 };
-    single_four low;
-    memcpy(&low, lmpi_table_few_low, sizeof low);
-    if (factors)
-        low *= (single_four) { factors[0], factors[1], factors[1], factors[1] };
-    *to = low * __builtin_shufflevector(*direction, one, 4, 1, 2, 0);
+/* Continues single_products for bands 4 and 5: products of what it made, of z² less roots, and of
+ * the cosine c of four times the azimuth. */
+LMPI_INLINE void single_more_products(int bands, const single_four *direction, single_values *to) {
+    const single_four w = *direction, z = __builtin_shufflevector(w, w, 2, 2, 2, 2), zz = z * z;
+    const single_four *at = to->at;
+    single_four roots, more;
+    single_load_four(lmpi_table_few_less[3], &roots);
+    const single_four four = zz - roots; /* for m = 2, 1, and 0 twice */
+    const float c = at[2][0] * at[2][0] - 4 * (at[1][0] * at[1][0]);
+    const single_four xy_z = __builtin_shufflevector(at[1], w, 0, 6, 0, 1);
+    to->at[4] = xy_z * __builtin_shufflevector(at[2], four, 0, 1, 4, 5);
+    const single_four low = __builtin_shufflevector(four, at[1], 2, 7, 2, 7);
+    const single_four high = __builtin_shufflevector(at[2], w, 0, 6, 0, 6);
+    to->at[5] = __builtin_shufflevector(low, high, 0, 1, 4, 5) *
+                __builtin_shufflevector(four, at[3], 3, 1, 0, 7);
+    to->last = c;
+    if (bands == 5)
+        return;
+    single_load_four(lmpi_table_few_less[4], &roots);
+    single_load_four(lmpi_table_few_less[5], &more);
+    const single_four five = zz - roots; /* for m = 2, 1, 0, 3 */
+    const single_four twice = five * (zz - more);
+    const single_four s = __builtin_shufflevector(to->at[4], to->at[4], 0, 0, 0, 0);
+    const single_four both = { c, c, s[0], five[3] };
+    const single_four turned = { 0, 4 * w[0], 0, 0 }, back = { 0, 0, 0, 4 * w[1] };
+    const single_four of = { 1, w[1], w[2], at[2][1] };
+    to->at[6] = of * both + turned * s;
+    to->at[7] = __builtin_shufflevector(w, at[2], 6, 1, 2, 0) *
+                __builtin_shufflevector(five, twice, 0, 5, 6, 5);
+    to->at[8] = __builtin_shufflevector(at[3], w, 2, 3, 6, 4) *
+                    __builtin_shufflevector(five, both, 0, 3, 4, 5) -
+                back * s;
 }
 
-/* Computes band 2, where it is the last: xy, yz, z² - 1/3 and xz, and x² - y². */
-LMPI_INLINE void single_second(const single_four *direction, const float *factors,
-                               single_values *to) {
-    const single_four w = *direction;
-    single_four by, more;
-    memcpy(&by, lmpi_table_few_second[0], sizeof by);
-    memcpy(&more, lmpi_table_few_second[1], sizeof more);
-    const single_four first = __builtin_shufflevector(w, w, 0, 1, 2, 0);
-    const single_four four = by * (first * __builtin_shufflevector(w, w, 1, 2, 2, 2) + more);
-    const single_four squares = w * w;
-    const float last = lmpi_table_diagonal[2] * (squares[0] - squares[1]);
-    to->at[1] = factors ? four * factors[2] : four;
-    to->last = factors ? last * factors[2] : last;
-}
-
-/* Arranges the coefficients of four and more bands, except those of single_low. */
-LMPI_INLINE void single_arrange(int bands, const single_band *band, single_values *to) {
-    const single_band *two = &band[2], *three = &band[3], *four = &band[4], *five = &band[5];
-    to->at[1] = __builtin_shufflevector(two->sine, two->cosine, 1, 0, 7, 4);
-    to->at[2] = __builtin_shufflevector(three->sine, three->sine, 2, 2, 1, 0);
-    to->at[2][0] = two->cosine[1];
-    to->at[3] = __builtin_shufflevector(three->cosine, three->cosine, 3, 0, 1, 2);
-    if (bands > 4) {
-        to->at[4] = __builtin_shufflevector(four->sine, four->sine, 2, 2, 1, 0);
-        to->at[4][0] = four->high[1];
-        to->at[5] = __builtin_shufflevector(four->cosine, four->cosine, 3, 0, 1, 2);
-        to->last = four->high[0];
+/* Multiplies coefficients by their scales, and by factors[l] if they are not NULL. */
+LMPI_INLINE void single_scale(int bands, const float *factors, single_values *values) {
+    const single_four zero = { 0 };
+    LMPI_UNROLL for (int i = 0; i < bands * bands / 4; i++) {
+        single_four scale;
+        single_load_four(lmpi_table_few_scale + 4 * i, &scale);
+        if (factors) {
+            const single_four first = factors[single_bands[i][0]] - zero;
+            const single_four others = factors[single_bands[i][1]] - zero;
+            scale *= __builtin_shufflevector(first, others, 0, 5, 6, 7);
+        }
+        values->at[i] *= scale;
     }
-    if (bands > 5) {
-        to->at[6] = __builtin_shufflevector(five->high, five->high, 3, 3, 1, 1);
-        to->at[6][0] = four->high[0];
-        to->at[6][3] = five->sine[2];
-        to->at[7] = __builtin_shufflevector(five->sine, five->cosine, 1, 0, 7, 4);
-        to->at[8] = __builtin_shufflevector(five->cosine, five->high, 1, 2, 4, 6);
-    }
+    const float last = lmpi_table_few_scale[bands * bands - 1];
+    values->last *= factors ? last * factors[bands - 1] : last;
 }
 
 /* Computes Y_lm(direction), times factors[l] if they are not NULL, for two and more bands. */
 LMPI_INLINE void single_values_of(int bands, const lmp_vec3 *direction, const float *factors,
                                   single_values *to) {
-    single_four w, columns[LMPI_SINGLE_BANDS];
-    single_azimuths by;
-    single_band band[LMPI_SINGLE_BANDS];
+    single_four w;
+    to->last = 0;
     single_load_vector(direction, &w);
-    single_low(&w, factors, &to->at[0]);
-    if (bands == 3)
-        single_second(&w, factors, to);
-    if (bands <= 3)
-        return;
-    single_columns_of(bands, &w, columns);
-    single_azimuths_of(bands, &w, &by);
-    LMPI_UNROLL for (int l = 2; l < bands; l++)
-        single_band_of(l, &w, &by, factors, &columns[l], &band[l]);
-    single_arrange(bands, band, to);
+    single_products(bands, &w, to);
+    if (bands > 4)
+        single_more_products(bands, &w, to);
+    single_scale(bands, factors, to);
 }
 
 LMPI_INLINE void single_values_store(int bands, const single_values *values, float *sh) {

@@ -2,6 +2,7 @@
 /* cap.c - lights that are caps as seen from a point, and the coefficients of caps. */
 #include "src/light/cap.h"
 #include "src/base/precondition.h"
+#include "src/kernels/dispatch.h"
 #include "src/kernels/single.h"
 #include "src/light/packed.h"
 #include "src/light/valid.h"
@@ -101,10 +102,18 @@ LMPI_INLINE void cap_put(int bands, const lmp_cap *cap, float *sh) {
     lmpi_cap_polynomials(bands, cap->one_minus_cos, r);
     lmpi_sh_put(bands, cap->axis, r, NULL, sh);
 }
+static void put_few(int bands, const lmp_cap *cap, float *sh) {
+    lmpi_single_cap single = { .axis = cap->axis };
+    LMPI_STRAIGHT(bands, lmpi_cap_polynomials, cap->one_minus_cos, single.factors)
+    lmpi_single_get()->cap[bands](&single, sh);
+}
 static void add_at_once(int bands, const lmp_cap *cap, const float strength[3],
                         float *const planes[3]) {
     float sh[LMP_SH_COUNT(CAP_BANDS)];
-    LMPI_STRAIGHT_SMALL(bands, cap_put, cap, sh)
+    if (bands <= LMPI_SINGLE_BANDS)
+        put_few(bands, cap, sh);
+    else
+        LMPI_STRAIGHT_SMALL(bands, cap_put, cap, sh)
     for (int c = 0; c < 3; c++)
         for (size_t i = 0; planes[c] && i < LMP_SH_COUNT(bands); i++)
             planes[c][i] += strength[c] * sh[i];

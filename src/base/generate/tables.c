@@ -148,6 +148,77 @@ static double quarter(int l, int m, int k) {
                  : p * quarter_cosine(sum) - s * quarter_cosine(difference);
 }
 
+/* --- rotation of few bands by their values ------------------------------------------------------
+ */
+
+enum { ROTATE_AXES = 2 * LMPI_TABLE_FEW_BANDS - 1 };
+
+/* Returns coordinate k of an axis, as rounded as programs read it. The axes were searched for small
+ * inverses of the matrices of all bands: their rows' sums are at most 4.8 where values are those of
+ * harmonics whose mean square is 1. */
+static double rotate_axis(int i, int k) {
+    static const int axes[ROTATE_AXES][3] = { { 2, 9, 13 },   { -5, 14, 5 }, { 12, -9, 6 },
+                                              { 12, 8, 7 },   { -9, 10, 9 }, { 16, -1, 3 },
+                                              { 12, 1, 10 },  { 7, -11, 9 }, { -1, 6, 15 },
+                                              { 0, -12, 10 }, { 10, -13, 0 } };
+    const int *of = axes[i];
+    return (double)(float)(of[k] / sqrt(of[0] * of[0] + of[1] * of[1] + of[2] * of[2]));
+}
+
+/* Returns the square of a positive root of q_l^m over its norm, the greatest first, or 0. It is z
+ * or 1 times z² - a, or times z⁴ - a z² + b. */
+static double monic_square(int l, int m, int which) {
+    double a = 0, b = 0;
+    for (int k = m + 2; k <= l; k++) {
+        /* q_k = z q_(k-1) - c_k q_(k-2): each product of two c lacks neighbors */
+        for (int j = k + 2; j <= l; j++)
+            b += monic(k, m) * monic(j, m);
+        a += monic(k, m);
+    }
+    const double middle = a / 2, off = sqrt(middle * middle - b);
+    return which == 0 ? middle + off : l - m >= 4 ? middle - off : 0;
+}
+
+/* Evaluates the harmonic at an axis. */
+static double rotate_harmonic(int l, int m, int axis) {
+    const double x = rotate_axis(axis, 0), y = rotate_axis(axis, 1), z = rotate_axis(axis, 2);
+    double q = norm(l, abs(m)), c = 1, s = 0;
+    for (int i = 0; i < abs(m); i++) {
+        const double next = c * x - s * y;
+        s = c * y + s * x;
+        c = next;
+    }
+    for (int i = 0; i < (l - abs(m)) / 2; i++)
+        q *= z * z - monic_square(l, abs(m), i);
+    return q * ((l - m) % 2 != 0 ? z : 1) * (m < 0 ? s : c);
+}
+
+/* Computes, right of the matrix that evaluates band l at the axes, its inverse (Gauss, Jordan). */
+static void rotate_invert(int l, double matrix[ROTATE_AXES][2 * ROTATE_AXES]) {
+    const int count = 2 * l + 1;
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < count; k++) {
+            matrix[i][k] = rotate_harmonic(l, k - l, i);
+            matrix[i][count + k] = i == k ? 1 : 0;
+        }
+    for (int k = 0; k < count; k++) {
+        int best = k;
+        for (int i = k + 1; i < count; i++)
+            if (fabs(matrix[i][k]) > fabs(matrix[best][k]))
+                best = i;
+        double row[2 * ROTATE_AXES];
+        memcpy(row, matrix[best], sizeof row);
+        memcpy(matrix[best], matrix[k], sizeof row);
+        for (int j = 0; j < 2 * count; j++)
+            matrix[k][j] = row[j] / row[k];
+        for (int i = 0; i < count; i++) {
+            const double factor = matrix[i][k];
+            for (int j = 0; j < 2 * count && i != k; j++)
+                matrix[i][j] -= factor * matrix[k][j];
+        }
+    }
+}
+
 /* --- products of few bands -------------------------------------------------------------------- */
 
 /* Computes height i of Gauss's rule and its weight; heights of the first half lie above 0, and
@@ -208,39 +279,28 @@ static void print_triangle(const char *name, double (*entry)(int l, int m)) {
     printf("\n};\n");
 }
 
-static void print_few(const char *name, double (*entry)(int l, int m)) {
-    printf("\nconst float lmpi_table_few_%s[LMPI_TABLE_FEW_BANDS][4] = {", name);
-    for (int l = 0; l < LMPI_TABLE_FEW_BANDS; l++) {
-        printf("%s{", l == 0 ? " " : "\n}, ");
-        for (int m = 1; m <= 4; m++)
-            print_value(m - 1, m % 4 < l ? entry(l, m % 4) : 0);
+static void print_few(void) {
+    enum { BANDS = LMPI_TABLE_FEW_BANDS };
+    const double less[6][4] = {
+        { 0, 0, monic_square(2, 0, 0), 0 },
+        { 1, 1 / 3.0, 0, monic_square(3, 1, 0) },
+        { monic_square(3, 0, 0), monic_square(3, 1, 0), 1, 3 },
+        { monic_square(4, 2, 0), monic_square(4, 1, 0), monic_square(4, 0, 0),
+          monic_square(4, 0, 1) },
+        { monic_square(5, 2, 0), monic_square(5, 1, 0), monic_square(5, 0, 0),
+          monic_square(5, 3, 0) },
+        { 0, monic_square(5, 1, 1), monic_square(5, 0, 1), 0 },
+    };
+    printf("\nconst float lmpi_table_few_scale[] = {");
+    for (int l = 0; l < BANDS; l++)
+        for (int m = -l; m <= l; m++)
+            print_value(l * (l + 1) + m, (m >= -4 && m <= -2 ? -m : 1) * norm(l, abs(m)));
+    printf("\n};\n\nconst float lmpi_table_few_less[6][4] = { {");
+    for (int i = 0; i < 24; i++) {
+        printf("%s", i > 0 && i % 4 == 0 ? "\n}, {" : "");
+        print_value(i % 4, less[i / 4][i % 4]);
     }
     printf("\n} };\n");
-}
-
-static void print_fours(const char *name, const double rows[2][4]) {
-    printf("\nconst float lmpi_table_few_%s[2][4] = { {", name);
-    for (int i = 0; i < 8; i++) {
-        printf("%s", i == 4 ? "\n}, {" : "");
-        print_value(i % 4, rows[i / 4][i % 4]);
-    }
-    printf("\n} };\n");
-}
-
-static void print_few_ends(void) {
-    const double fifth = recurrence_a(5, 4) * diagonal(4);
-    const double side = recurrence_a(2, 1) * diagonal(1), up = recurrence_a(1, 0) * diagonal(0);
-    const double low[4] = { diagonal(0), diagonal(1), up, diagonal(1) };
-    const double high[2][4] = { { diagonal(4), diagonal(4), 0, 0 },
-                                { fifth, fifth, diagonal(5), diagonal(5) } };
-    const double second[2][4] = { { 2 * diagonal(2), side, recurrence_a(2, 0) * up, side },
-                                  { 0, 0, -1 / 3.0, 0 } };
-    printf("\nconst float lmpi_table_few_low[4] = {");
-    for (int i = 0; i < 4; i++)
-        print_value(i, low[i]);
-    printf("\n};\n");
-    print_fours("high", high);
-    print_fours("second", second);
 }
 
 static void print_bands(const char *name, double (*entry)(int l)) {
@@ -270,27 +330,42 @@ static void print_quarters(void) {
     printf("\n};\n");
 }
 
-static void print_quarter_lanes(bool lanes) {
-    enum { LANES = LMPI_TABLE_QUARTER_LANES };
-    printf("\nconst %s lmpi_table_quarter_%s[4][3][LMPI_TABLE_QUARTER_LANES] = {",
-           lanes ? "int32_t" : "float", lanes ? "lanes" : "terms");
-    for (int l = 2; l < 6; l++) {
-        printf("%s", l == 2 ? " {" : " }, {");
-        for (int term = 0; term < 3; term++) {
-            printf("%s", term == 0 ? " {" : "\n}, {");
-            for (int lane = 0; lane < LANES; lane++) {
-                const int m = lane - LANES / 2;
-                const bool is = abs(m) <= l && term < lmpi_table_quarter_count(l, m);
-                const int k = is ? lmpi_table_quarter_first(l, m) + 2 * term : 0;
-                if (lanes)
-                    printf("%s%d,", lane == 0 ? "\n" : "", LANES / 2 + k);
-                else
-                    print_value(lane, is ? quarter(l, m, k) : 0);
-            }
+static void print_rotate(void) {
+    enum { BANDS = LMPI_TABLE_FEW_BANDS, LANES = LMPI_TABLE_ROTATE_AXES };
+    printf("\nconst float lmpi_table_rotate_axes[3][LMPI_TABLE_ROTATE_AXES] = {");
+    for (int k = 0; k < 3; k++) {
+        printf("%s{", k == 0 ? " " : "\n}, ");
+        for (int i = 0; i < LANES; i++)
+            print_value(i, i < ROTATE_AXES ? rotate_axis(i, k) : 0);
+    }
+    printf("\n} };\n\nconst float lmpi_table_rotate_norms[] = {");
+    for (int l = 0; l < BANDS; l++)
+        for (int m = -l; m <= l; m++)
+            print_value(l * (l + 1) + m, norm(l, abs(m)));
+    printf("\n};\n\nconst float lmpi_table_rotate_squares[][LMPI_TABLE_FEW_BANDS][2] = {");
+    for (int l = 0; l < BANDS; l++) {
+        printf("%s{", l == 0 ? " " : "\n}, ");
+        for (int m = 0; m < BANDS; m++) {
+            printf("%s{", m == 0 ? " " : " }, ");
+            for (int i = 0; i < 2; i++)
+                print_value(i, m <= l ? monic_square(l, m, i) : 0);
+        }
+        printf(" }");
+    }
+    printf("\n} };\n\nconst float lmpi_table_rotate_inverse[][2 * LMPI_TABLE_FEW_BANDS - 1]"
+           "[LMPI_TABLE_ROTATE_AXES] = {");
+    for (int l = 2; l < BANDS; l++) {
+        double matrix[ROTATE_AXES][2 * ROTATE_AXES];
+        rotate_invert(l, matrix);
+        printf("%s{", l == 2 ? " " : "\n}, ");
+        for (int i = 0; i < ROTATE_AXES; i++) {
+            printf("%s{", i == 0 ? " " : "\n}, ");
+            for (int m = 0; m < LANES; m++)
+                print_value(m, i <= 2 * l && m <= 2 * l ? matrix[m][2 * l + 1 + i] : 0);
         }
         printf("\n}");
     }
-    printf(" } };\n");
+    printf("\n} };\n");
 }
 
 static void print_product(void) {
@@ -322,9 +397,7 @@ int main(void) {
     print_triangle("a", recurrence_a);
     print_triangle("b", recurrence_b);
     print_bands("diagonal", diagonal);
-    print_few("a", recurrence_a);
-    print_few("b", recurrence_b);
-    print_few_ends();
+    print_few();
     print_triangle("monic", monic);
     print_triangle("norm", norm);
     print_triangle("slope", slope);
@@ -337,8 +410,7 @@ int main(void) {
     print_bands("zonal_lobe", zonal_lobe);
     print_bands("pole", pole);
     print_quarters();
-    print_quarter_lanes(false);
-    print_quarter_lanes(true);
+    print_rotate();
     print_product();
     return 0;
 }
