@@ -21,6 +21,7 @@ typedef struct lmpi_single_cap {
 typedef struct lmpi_single {
     void (*eval[LMPI_SINGLE_BANDS + 1])(int bands, lmp_vec3 direction, float *sh);
     float (*dot[LMPI_SINGLE_BANDS + 1])(int bands, const float *a, const float *b);
+    /* from 5 bands on */
     void (*combine[LMPI_SINGLE_BANDS + 1])(int bands, float s, const float *a, float t,
                                            const float *b, float *sh);
     void (*multiply[LMPI_SINGLE_BANDS + 1])(int bands, const float *a, const float *b, float *c);

@@ -123,11 +123,6 @@ LMPI_INLINE void straight_colors(int bands, const lmpi_single_cap *cap, lmp_rgb 
         (void)n;                                                                                   \
         return straight_dot(bands, a, b);                                                          \
     }                                                                                              \
-    static void combine_##bands(int n, float s, const float *a, float t, const float *b,           \
-                                float *sh) {                                                       \
-        (void)n;                                                                                   \
-        straight_combine(bands, s, a, t, b, sh);                                                   \
-    }                                                                                              \
     static void multiply_##bands(int n, const float *a, const float *b, float *c) {                \
         (void)n;                                                                                   \
         straight_multiply(bands, a, b, c);                                                         \
@@ -151,6 +146,14 @@ LMPI_INLINE void straight_colors(int bands, const lmpi_single_cap *cap, lmp_rgb 
                             float *blue) {                                                         \
         straight_sun(bands, axis, strength, (float *const[3]) { red, green, blue });               \
     }
+static void combine_5(int n, float s, const float *a, float t, const float *b, float *sh) {
+    (void)n;
+    straight_combine(5, s, a, t, b, sh);
+}
+static void combine_6(int n, float s, const float *a, float t, const float *b, float *sh) {
+    (void)n;
+    straight_combine(6, s, a, t, b, sh);
+}
 SINGLE_EACH(1)
 SINGLE_EACH(2)
 SINGLE_EACH(3)
@@ -164,7 +167,7 @@ SINGLE_EACH(6)
 const lmpi_single LMPI_SINGLE = {
     .eval = SINGLE_OF(eval),
     .dot = SINGLE_OF(dot),
-    .combine = SINGLE_OF(combine),
+    .combine = { [5] = combine_5, [6] = combine_6 },
     .multiply = SINGLE_OF(multiply),
     .rotate = SINGLE_OF(rotate),
     .rotate_z = SINGLE_OF(rotate_z),

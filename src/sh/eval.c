@@ -5,6 +5,11 @@
 
 #include <lampion/sh.h>
 
+#include <string.h>
+
+/* Bands up to which lmp_sh_combine does without kernels. */
+#define COMBINE_HERE 4
+
 void lmpi_sh_values(int bands, lmp_vec3 direction, float *sh) {
     if (bands <= LMPI_SINGLE_BANDS) {
         lmpi_single_get()->eval[bands](bands, direction, sh);
@@ -82,11 +87,27 @@ void lmp_sh_expand_zonal(int bands, const float *zonal, lmp_vec3 axis, float *sh
 
 static LMPI_NOINLINE void combine_any(int bands, float s, const float *a, float t, const float *b,
                                       float *sh) {
-    if (bands <= LMPI_SINGLE_BANDS)
+    if (bands > COMBINE_HERE && bands <= LMPI_SINGLE_BANDS)
         lmpi_single_get()->combine[bands](bands, s, a, t, b, sh);
     else
         for (size_t i = 0; i < LMP_SH_COUNT(bands); i++)
             sh[i] = s * a[i] + t * b[i];
+}
+
+/* Combines so few bands that the way to an instruction set's function would take as long. */
+LMPI_INLINE void combine_here(int bands, float s, const float *a, float t, const float *b,
+                              float *sh) {
+    const int count = bands * bands;
+    LMPI_UNROLL for (int i = 0; i + 4 <= count; i += 4) {
+        typedef float four __attribute__((vector_size(16)));
+        four x, y;
+        memcpy(&x, a + i, sizeof x);
+        memcpy(&y, b + i, sizeof y);
+        x = s * x + t * y;
+        memcpy(sh + i, &x, sizeof x);
+    }
+    if (count % 4 != 0)
+        sh[count - 1] = s * a[count - 1] + t * b[count - 1];
 }
 
 void lmp_sh_combine(int bands, float s, const float *a, float t, const float *b, float *sh) {
@@ -94,7 +115,15 @@ void lmp_sh_combine(int bands, float s, const float *a, float t, const float *b,
     assert(lmpi_are_same_or_apart(a, sh, LMP_SH_COUNT(bands)));
     assert(lmpi_are_same_or_apart(b, sh, LMP_SH_COUNT(bands)));
     const lmpi_kernels *kernels = lmpi_single_for(bands);
-    (kernels ? kernels->single->combine[bands] : combine_any)(bands, s, a, t, b, sh);
+    if (bands == 4)
+        combine_here(4, s, a, t, b, sh);
+    else if (bands == 3)
+        combine_here(3, s, a, t, b, sh);
+    else if (bands == 2)
+        combine_here(2, s, a, t, b, sh);
+    else
+        (kernels && bands > COMBINE_HERE ? kernels->single->combine[bands]
+                                         : combine_any)(bands, s, a, t, b, sh);
 }
 
 /* --- gradient --------------------------------------------------------------------------------- */
