@@ -97,43 +97,35 @@ typedef struct rotate_axes {
     }
 
 ROTATE_LANES(four, vf4)
-#if LMPI_LANES >= 8
 ROTATE_LANES(eight, single_eight)
-#endif
-#if LMPI_LANES == 16
-ROTATE_LANES(all, vf)
-#endif
+ROTATE_LANES(all, vf) /* of 16 lanes */
 
 LMPI_INLINE void rotate_values(int bands, const float r[9], const float *sh, rotate_axes *axes) {
-#if LMPI_LANES == 16
-    if (bands > 4) {
+    if (LMPI_LANES == 16 && bands > 4) {
         all_values(2, bands, 0, r, sh, axes);
         return;
     }
-#endif
-#if LMPI_LANES >= 8
-    eight_values(2, bands, 0, r, sh, axes);
-#else
-    four_values(2, bands, 0, r, sh, axes);
-    four_values(2, bands, 4, r, sh, axes);
-#endif
+    if (LMPI_LANES >= 8) {
+        eight_values(2, bands, 0, r, sh, axes);
+    } else {
+        four_values(2, bands, 0, r, sh, axes);
+        four_values(2, bands, 4, r, sh, axes);
+    }
     if (bands > 4)
         four_values(4, bands, 8, r, sh, axes);
 }
 
 LMPI_INLINE void rotate_band(int l, const rotate_axes *axes, float band[LMPI_TABLE_ROTATE_AXES]) {
-#if LMPI_LANES == 16
-    if (l >= 4) {
+    if (LMPI_LANES == 16 && l >= 4) {
         all_coefficients(l, 0, axes, band);
         return;
     }
-#endif
-#if LMPI_LANES >= 8
-    eight_coefficients(l, 0, axes, band);
-#else
-    four_coefficients(l, 0, axes, band);
-    four_coefficients(l, 4, axes, band);
-#endif
+    if (LMPI_LANES >= 8) {
+        eight_coefficients(l, 0, axes, band);
+    } else {
+        four_coefficients(l, 0, axes, band);
+        four_coefficients(l, 4, axes, band);
+    }
     if (l >= 4)
         four_coefficients(l, 8, axes, band);
 }
