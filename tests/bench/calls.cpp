@@ -2,6 +2,7 @@
 /* Single calls beside those of DirectXMath's SHMath, of which peer.sh says where it lies: medians of
  * pairs of runs, ours and theirs in turns. Both get the same inputs from arrays that stay in the
  * first cache, and write where the next call does not read. */
+#include <lampion/cpu.h>
 #include <lampion/light.h>
 #include <lampion/sh.h>
 
@@ -218,8 +219,11 @@ void measure(const call &c, int bands) {
 
 } // namespace
 
-/* calls [WORD]: those whose name has the word in it. */
+/* calls [WORD [FLAGS]]: those whose name has the word in it, by instruction sets of these
+ * lmp_cpu_flag bits. */
 int main(int argc, char **argv) {
+    if (argc > 2)
+        lmp_cpu_limit(static_cast<unsigned>(std::atoi(argv[2])));
     fill_inputs();
     std::printf("call,bands,ours_ns,peer_ns,peer_over_ours\n");
     for (const call &c : calls)

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-# sh tests/bench/peer.sh CHECKOUT LIBRARY [WORD] - single calls of a liblampion.a beside those of DirectXMath, a
+# sh tests/bench/peer.sh CHECKOUT LIBRARY [WORD [FLAGS]] - single calls of a liblampion.a beside those of DirectXMath, a
 # checkout of which the caller has: a line a call and number of bands, in CSV. The peer is compiled for this machine, the
-# library is what its build made of it. A WORD measures the calls whose names have it.
+# library is what its build made of it. A WORD measures the calls whose names have it ("" all), FLAGS (lmp_cpu_flag,
+# 4 for AVX2) by lesser instruction sets than the machine's best.
 set -eu
 [ $# -ge 2 ] || {
-    echo "usage: sh tests/bench/peer.sh CHECKOUT LIBRARY [WORD]" >&2
+    echo "usage: sh tests/bench/peer.sh CHECKOUT LIBRARY [WORD [FLAGS]]" >&2
     exit 2
 }
 checkout=$1 library=$2 source=$(dirname "$0")/../..
