@@ -63,6 +63,9 @@ static LMPI_NOINLINE vf few_load_apart(const float *array, size_t stride, size_t
 LMPI_INLINE vf few_load(const float *array, size_t stride, size_t i, size_t live) {
     static const float LMPI_ALIGNED number[16] = { 0, 1, 2,  3,  4,  5,  6,  7,
                                                    8, 9, 10, 11, 12, 13, 14, 15 };
+    /* by itself, because a register would wait for a plane's stores */
+    if (live == 1)
+        return vf_set(lights_at(array, stride, i));
     if (stride != sizeof *array)
         return few_load_apart(array, stride, i, live);
     if (live == LMPI_LANES)
