@@ -51,12 +51,20 @@ typedef struct few_work {
     float LMPI_ALIGNED rows[LMPI_LANES * FEW_ROW];
 } few_work;
 
+/* Returns element i, or the last one if that comes before. */
+LMPI_INLINE float few_at(const float *array, size_t stride, size_t i, size_t last) {
+    return lights_at(array, stride, i < last ? i : last);
+}
+
 /* Loads elements i, i + 1, … of an array that is not a plane. */
-static LMPI_NOINLINE vf few_load_apart(const float *array, size_t stride, size_t i, size_t live) {
-    float LMPI_ALIGNED plane[LMPI_LANES];
-    for (size_t e = 0; e < LMPI_LANES; e++)
-        plane[e] = lights_at(array, stride, i + (e < live ? e : live - 1));
-    return vf_load(plane);
+LMPI_INLINE vf few_load_apart(const float *array, size_t stride, size_t i, size_t live) {
+    const size_t last = i + live - 1;
+    vf4 quarters[(LMPI_LANES + 3) / 4];
+    LMPI_UNROLL for (size_t q = 0; q < sizeof quarters / sizeof *quarters; q++, i += 4)
+        quarters[q] =
+            (vf4) { few_at(array, stride, i, last), few_at(array, stride, i + 1, last),
+                    few_at(array, stride, i + 2, last), few_at(array, stride, i + 3, last) };
+    return vf_join(quarters);
 }
 
 /* Loads elements i, i + 1, … of an array; lanes past the last element repeat it. */

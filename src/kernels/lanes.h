@@ -14,6 +14,8 @@
  *                      1 / sqrt, and the last two convert
  *   vf_load_first      the first `count` lanes, 1 … LMPI_LANES - 1; the others are 0 and not read
  *   vf_store_first     the first `count` lanes; nothing past them is written
+ *   vf_join            a register of its quarters, by insertions: put together in memory, it would
+ *                      wait for its stores
  *   vf_number          a number that is the same in every lane, as an operand in memory that costs
  *                      no instruction: AVX-512 broadcasts it as it is read, the others read it
  *                      broadcast
@@ -25,8 +27,6 @@
  * and those with four lanes and more
  *
  *   LMPI_SHUFFLE       in each quarter lanes i and j of a, then k and l of b
- *   layout_quarters    quarter g from from[g], by insertions: put together in memory, a register
- *                      would wait for its stores
  *   pair_products      described in products_tmpl.h
  *
  * vf_select_less is a < b ? yes : no. vi_from rounds toward 0 a number that must fit. vf_load_twice

@@ -26,6 +26,9 @@ LMPI_INLINE vd vd_max(vd a, vd b) {
 LMPI_INLINE int vd_any_less(vd a, vd b) {
     return a < b;
 }
+LMPI_INLINE vf vf_join(const vf4 *quarters) {
+    return quarters[0][0];
+}
 LMPI_INLINE vh vh_per_root(vh a) {
     return 1 / sqrtf(a);
 }

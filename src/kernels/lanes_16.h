@@ -58,11 +58,11 @@ typedef float vf_number;
                             8 + (i), 8 + (j), 24 + (k), 24 + (l), 12 + (i), 12 + (j), 28 + (k),    \
                             28 + (l))
 
-LMPI_INLINE vf layout_quarters(const float *const from[LMPI_LANES / 4]) {
-    __m512 v = _mm512_castps128_ps512(_mm_loadu_ps(from[0]));
-    v = _mm512_insertf32x4(v, _mm_loadu_ps(from[1]), 1);
-    v = _mm512_insertf32x4(v, _mm_loadu_ps(from[2]), 2);
-    return (vf)_mm512_insertf32x4(v, _mm_loadu_ps(from[3]), 3);
+LMPI_INLINE vf vf_join(const vf4 *quarters) {
+    __m512 v = _mm512_castps128_ps512((__m128)quarters[0]);
+    v = _mm512_insertf32x4(v, (__m128)quarters[1], 1);
+    v = _mm512_insertf32x4(v, (__m128)quarters[2], 2);
+    return (vf)_mm512_insertf32x4(v, (__m128)quarters[3], 3);
 }
 
 LMPI_INLINE void half_pack(const float *from, uint16_t *to) {

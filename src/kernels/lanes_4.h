@@ -44,8 +44,8 @@ LMPI_INLINE vh vh_from(vd x) {
 
 #define LMPI_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, 4 + (k), 4 + (l))
 
-LMPI_INLINE vf layout_quarters(const float *const from[1]) {
-    return vf_load(from[0]);
+LMPI_INLINE vf vf_join(const vf4 *quarters) {
+    return quarters[0];
 }
 
 typedef int16_t half_lanes __attribute__((vector_size(8)));

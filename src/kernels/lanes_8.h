@@ -57,9 +57,9 @@ typedef vf vf_number;
 #define LMPI_SHUFFLE(a, b, i, j, k, l)                                                             \
     __builtin_shufflevector(a, b, i, j, 8 + (k), 8 + (l), 4 + (i), 4 + (j), 12 + (k), 12 + (l))
 
-LMPI_INLINE vf layout_quarters(const float *const from[LMPI_LANES / 4]) {
-    return (vf)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from[0])),
-                                    _mm_loadu_ps(from[1]), 1);
+LMPI_INLINE vf vf_join(const vf4 *quarters) {
+    return (vf)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)quarters[0]),
+                                    (__m128)quarters[1], 1);
 }
 
 LMPI_INLINE void half_pack(const float *from, uint16_t *to) {

@@ -33,6 +33,14 @@ LMPI_INLINE void layout_store_quarter(float *to, vf v, int g) {
     memcpy(to, &part, sizeof part);
 }
 
+/* Loads quarter g from from[g]. */
+LMPI_INLINE vf layout_quarters(const float *const from[LMPI_LANES / 4]) {
+    vf4 quarters[LMPI_LANES / 4];
+    LMPI_UNROLL for (int g = 0; g < LMPI_LANES / 4; g++)
+        memcpy(&quarters[g], from[g], sizeof *quarters);
+    return vf_join(quarters);
+}
+
 /* Loads quarter g from from[g * step]. */
 LMPI_INLINE vf layout_load_quarters(const float *from, size_t step) {
     const float *quarters[LMPI_LANES / 4];
