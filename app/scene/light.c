@@ -373,14 +373,27 @@ static lmp_vec3 rotate(lmp_vec3 v, const void *user) {
                    vec_scale(axis, vec_dot(axis, v) / one_plus_cos));
 }
 
-/* Returns the unit direction to which a light with a position shines; 0 if to all alike. */
-static lmp_vec3 facing(const lmp_light *light) {
+void scene_light_rotate_between(lmp_light *light, lmp_vec3 from, lmp_vec3 to) {
+    scene_light_rotate(light, rotate, &(rotation) { from, to });
+    light->direction =
+        vec_normalize(light->direction, light->direction); /* which may have lost digits */
+}
+
+lmp_vec3 scene_light_axis(const lmp_light *light) {
     const lmp_vec3 none = { 0, 0, 0 };
     lmp_vec3 normal = none;
     switch (light->kind) {
+    case LMP_LIGHT_SPHERE:
+    case LMP_LIGHT_POINT:
+        break;
     case LMP_LIGHT_SPOT:
     case LMP_LIGHT_DISK:
+    case LMP_LIGHT_DIRECTIONAL:
+    case LMP_LIGHT_CAP:
+    case LMP_LIGHT_HEMISPHERE:
         return light->direction;
+    case LMP_LIGHT_TUBE:
+        return vec_normalize(light->half[0], none);
     case LMP_LIGHT_RECTANGLE:
         return vec_normalize(vec_cross(light->half[0], light->half[1]), none);
     case LMP_LIGHT_POLYGON: /* by Newell's method */
@@ -388,21 +401,19 @@ static lmp_vec3 facing(const lmp_light *light) {
             normal = vec_add(
                 normal, vec_cross(light->corner[i], light->corner[(i + 1) % light->corner_count]));
         return vec_normalize(normal, none);
-    default:
-        return none;
     }
+    return none;
 }
 
 void scene_light_face(lmp_light *light, lmp_vec3 direction) {
-    rotation r = { facing(light), direction };
-    if (light->kind == LMP_LIGHT_TUBE) {
-        r.from = vec_normalize(light->half[0], vec_across(direction));
-        r.to = vec_reject(r.from, direction);
-    } else if (light->two_sided && vec_dot(r.from, direction) < 0) {
-        r.to = vec_scale(direction, -1);
-    }
-    if (vec_dot(r.from, r.from) > 0)
-        scene_light_rotate(light, rotate, &r);
+    const lmp_vec3 axis = scene_light_axis(light);
+    lmp_vec3 to = direction;
+    if (light->kind == LMP_LIGHT_TUBE)
+        to = vec_reject(axis, direction);
+    else if (light->two_sided && vec_dot(axis, direction) < 0)
+        to = vec_scale(direction, -1);
+    if (vec_dot(axis, axis) > 0)
+        scene_light_rotate_between(light, axis, to);
 }
 
 /* --- the ranges ------------------------------------------------------------------------------- */

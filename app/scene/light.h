@@ -104,6 +104,13 @@ void scene_light_resize(lmp_light *light, float by);
 void scene_light_rotate(lmp_light *light, lmp_vec3 (*rotate)(lmp_vec3 v, const void *user),
                         const void *user);
 
+/* Rotates a light by the smallest rotation from one unit direction to another. */
+void scene_light_rotate_between(lmp_light *light, lmp_vec3 from, lmp_vec3 to);
+
+/* Returns the unit direction of a light: to where a spot or a flat area shines, along a tube, to a
+ * light without a position; 0 if it has none. */
+lmp_vec3 scene_light_axis(const lmp_light *light);
+
 /* Rotates a light with a position as little as it takes to shine in a unit direction: a spot or a
  * flat area by its front, two-sided ones by the nearer side, a tube across its axis. */
 void scene_light_face(lmp_light *light, lmp_vec3 direction);
