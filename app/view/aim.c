@@ -75,9 +75,9 @@ bool view_aim_begin(view_state *s) {
         return false;
     const scene_light shown = view_shown_light(s, s->selected);
     s->drag = VIEW_DRAG_AIM;
-    s->aimed = s->now.lights[s->selected];
+    s->grabbed = s->now.lights[s->selected];
     s->aim_distance = vec_length(vec_sub(shown.emitter.position, point));
-    s->grab = vec_sub(s->aimed.emitter.position, shown.emitter.position);
+    s->grab = vec_sub(s->grabbed.emitter.position, shown.emitter.position);
     view_aim_follow(s);
     return true;
 }
@@ -88,7 +88,7 @@ void view_aim_follow(view_state *s) {
     view_ray ray;
     view_hit hit;
     lmp_vec3 point;
-    scene_light moved = s->aimed;
+    scene_light moved = s->grabbed;
     scene_light_error wrong;
     if (!find_point(s, &ray, &hit, &point))
         return;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* events.c - what the pointer, the keys, dropped files and time do to the state. */
 #include "app/view/aim.h"
+#include "app/view/handles.h"
 #include "app/view/panel.h"
 #include "app/view/state.h"
 
@@ -100,6 +101,8 @@ static void press(view_state *s, const view_event *event) {
         s->drag = VIEW_DRAG_LOOK;
         return;
     }
+    if (view_handle_begin(s))
+        return;
     if (on_divider(s)) {
         s->drag = VIEW_DRAG_DIVIDER;
         return;
@@ -140,6 +143,9 @@ static void move(view_state *s, double x, double y) {
     case VIEW_DRAG_AIM:
         if (s->selected >= 0)
             view_aim_follow(s);
+        break;
+    case VIEW_DRAG_HANDLE:
+        view_handle_follow(s);
         break;
     case VIEW_DRAG_DIVIDER:
         s->now.divider = fminf(fmaxf((float)(x / s->now.width), 0.02f), 0.98f);
@@ -191,13 +197,15 @@ static void act(view_state *s, const char *name) {
 }
 
 static void hold(view_state *s, char letter, bool down, bool fast) {
-    static const char letters[] = "wasdqe";
+    static const char letters[] = "wasdqec";
     const char *at = letter ? strchr(letters, letter) : NULL;
     s->fast = fast;
     if (at)
         s->held[at - letters] = down && s->panel.kind == VIEW_PANEL_CLOSED;
     else if (!letter)
         memset(s->held, 0, sizeof s->held);
+    if (s->drag == VIEW_DRAG_HANDLE) /* by steps from now on, or no longer */
+        view_handle_follow(s);
 }
 
 static void type(view_state *s, const char *text) {
@@ -219,10 +227,12 @@ static void choose_aim(view_state *s, const char *name) {
         view_choose_aim(s, aim);
 }
 
-/* Lets an aimed light stay as a key, an action or a value has changed it. */
-static void keep_aimed(view_state *s) {
+/* Lets a dragged light stay as a key, an action or a value has changed it; a handle lets go. */
+static void keep_dragged(view_state *s) {
     if (s->drag == VIEW_DRAG_AIM && s->selected >= 0)
-        s->aimed = s->now.lights[s->selected];
+        s->grabbed = s->now.lights[s->selected];
+    if (s->drag == VIEW_DRAG_HANDLE)
+        s->drag = VIEW_DRAG_NONE;
 }
 
 static void resize(view_state *s, int width, int height) {
@@ -248,7 +258,7 @@ static void take_event(view_state *s, const view_event *event) {
         break;
     case VIEW_KEY:
         press_key(s, event->text);
-        keep_aimed(s);
+        keep_dragged(s);
         break;
     case VIEW_HOLD:
     case VIEW_FREE:
@@ -262,11 +272,11 @@ static void take_event(view_state *s, const view_event *event) {
         break;
     case VIEW_ACT:
         act(s, event->text);
-        keep_aimed(s);
+        keep_dragged(s);
         break;
     case VIEW_SET:
         view_set_by_line(s, event->text);
-        keep_aimed(s);
+        keep_dragged(s);
         break;
     case VIEW_DAMAGE:
         s->requests.redraw = true;

@@ -17,7 +17,7 @@ bool view_steps_time(const viewer *v) {
 /* Shows the image, and over it the interface's last frame. */
 static void show(viewer *v) {
     const double began = view_window_clock();
-    view_compositor_show(v->compositor, v->drawn, (float)(2 * v->scale));
+    view_compositor_show(v->compositor, v->drawn, (float)(2 * v->state.scale));
     ui_draw();
     v->over = v->laid;
     view_window_swap(v->window);

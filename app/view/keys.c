@@ -186,6 +186,11 @@ static void toggle_overlay(view_state *s, int unused) {
     s->overlay = !s->overlay;
 }
 
+static void toggle_handles(view_state *s, int unused) {
+    (void)unused;
+    s->handles = !s->handles;
+}
+
 static void toggle_sidebar(view_state *s, int unused) {
     (void)unused;
     s->sidebar = !s->sidebar;
@@ -277,6 +282,7 @@ const view_key view_keys[] = {
 
     { NULL, "Lights", NULL, NULL, 0, NULL },
     { NULL, "left drag on one", "move it (wheel: in depth)", NULL, 0, NULL },
+    { "Ctrl+H", "Ctrl H", "handles on, off (Ctrl: by steps)", toggle_handles, 0, "Handles" },
     { "Tab", "Tab", "select the next", view_select_light, 1, "Next light" },
     { "Shift+Tab", NULL, NULL, view_select_light, -1, "Previous light" },
     { "n", "N", "new, over what is pointed at", view_add_light, 0, "Add light" },

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* labels.c - what the drawings over the image say: statistics, help, messages, the ring around the
+/* labels.c - what the drawings over the image say: statistics, help, messages, the handles of the
  * selected light. */
+#include "app/view/handles.h"
 #include "app/view/overlay.h"
 #include "app/view/panel.h"
 #include "app/view/ui.h"
@@ -109,18 +110,29 @@ static void draw_sides(const viewer *v, double scale) {
     }
 }
 
-static void draw_ring(const viewer *v, double scale) {
-    const view_settings *d = v->drawn;
-    double x, y, pixels;
-    if (v->state.selected < 0 || (size_t)v->state.selected >= d->light_count)
-        return;
-    const scene_light *light = &d->lights[v->state.selected];
-    if (!scene_light_has(light, SCENE_LIGHT_POSITION) ||
-        !view_project(&d->camera, d->width, d->height, light->emitter.position, &x, &y, &pixels))
-        return;
-    const double radius = (double)scene_light_extent(&light->emitter) * pixels + 5 * scale;
-    if (radius < d->width)
-        ui_ring(x, y, radius);
+static ui_color color_of(view_handle_kind handle) {
+    static const ui_color of_axes[] = { UI_RED, UI_GREEN, UI_BLUE };
+    const bool moves = handle >= VIEW_HANDLE_X && handle <= VIEW_HANDLE_XY;
+    return moves ? of_axes[(handle - VIEW_HANDLE_X) % 3] : UI_INK;
+}
+
+/* Draws the handles of the selected light, or the ring around it; the one under the pointer stands
+ * out. */
+static void draw_handles(const view_state *s, bool covered) {
+    view_marks marks;
+    view_find_marks(s, &marks);
+    const view_handle_kind chosen = s->drag == VIEW_DRAG_HANDLE ? s->grip.handle
+                                    : s->drag == VIEW_DRAG_NONE && !covered
+                                        ? view_handle_at_pointer(s, &marks)
+                                        : VIEW_HANDLE_NONE;
+    for (int i = 0; i < marks.count; i++) {
+        const view_mark *mark = &marks.of[i];
+        const bool handle = mark->handle != VIEW_HANDLE_NONE;
+        const bool stands_out = handle && mark->handle == chosen;
+        ui_path(mark->at, mark->count, mark->shape, stands_out ? 3 : 1.8,
+                stands_out ? UI_ACCENT : color_of(mark->handle),
+                (marks.hidden ? 0.45 : 0.95) * (handle ? 1 : 0.6));
+    }
 }
 
 /* Draws the panel of values, its upper right corner at x, y. */
@@ -132,14 +144,16 @@ static void draw_values(const viewer *v, double x, double y) {
 }
 
 void view_lay_out(viewer *v, const char *announcement, bool fresh) {
-    const double scale = v->scale;
+    const double scale = v->state.scale;
     const char *message = announcement ? announcement : v->state.message;
     const int width = v->state.now.width, height = v->state.now.height;
+    const bool covered = ui_covered();
     view_row rows[STATISTICS_ROWS];
     take_statistics(v, fresh);
     ui_begin(width, height, scale, v->clock - v->laid_at);
     v->laid_at = v->clock;
-    draw_ring(v, scale);
+    if (!v->state.help)
+        draw_handles(&v->state, covered);
     if (v->state.overlay && !v->state.help) {
         draw_sides(v, scale);
         view_draw_rows(rows, fill_statistics(v, rows), 12 * scale, 12 * scale, 0);

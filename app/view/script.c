@@ -106,7 +106,8 @@ static bool read_event(const words *w, view_script_line *line) {
     if (strcmp(what, "hold") == 0 || strcmp(what, "free") == 0) {
         e->kind = what[0] == 'h' ? VIEW_HOLD : VIEW_FREE;
         e->letter = w->text[2][0];
-        return strlen(w->text[2]) == 1 && strchr("wasdqe", e->letter);
+        return strcmp(w->text[2], "ctrl") == 0 ||
+               (strlen(w->text[2]) == 1 && strchr("wasdqe", e->letter));
     }
     if (w->count != 3 || strlen(w->text[2]) >= sizeof line->text)
         return false;

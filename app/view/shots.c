@@ -3,6 +3,7 @@
 #include "app/base/file_json.h"
 #include "app/base/file_writer.h"
 #include "app/view/aim.h"
+#include "app/view/handles.h"
 #include "app/view/panel.h"
 #include "app/view/ui.h"
 #include "app/view/viewer.h"
@@ -133,6 +134,27 @@ static json_t *places_to_json(void) {
     return places;
 }
 
+/* Lists a place of each handle, for tests by input: the middle of a filled one, or else its first
+ * point. */
+static json_t *handles_to_json(const view_state *s) {
+    json_t *places = json_object();
+    view_marks marks;
+    view_find_marks(s, &marks);
+    for (int i = 0; i < marks.count; i++) {
+        const view_mark *mark = &marks.of[i];
+        const int count = mark->shape == UI_FILLED ? mark->count : 1;
+        double x = 0, y = 0;
+        for (int k = 0; k < count; k++) {
+            x += (double)mark->at[k][0] / count;
+            y += (double)mark->at[k][1] / count;
+        }
+        if (mark->handle != VIEW_HANDLE_NONE)
+            places =
+                file_json_with(places, view_handle_names[mark->handle], json_pack("[f, f]", x, y));
+    }
+    return places;
+}
+
 static json_t *ui_to_json(const viewer *v) {
     const view_state *s = &v->state;
     json_t *ui =
@@ -143,6 +165,7 @@ static json_t *ui_to_json(const viewer *v) {
     ui = with_panel(ui, s);
     ui = file_json_with(ui, "sidebar", json_boolean(s->sidebar));
     ui = file_json_with(ui, "places", places_to_json());
+    ui = file_json_with(ui, "handles", handles_to_json(s));
     ui = file_json_with(ui, "aim", file_json_string(view_aim_names[s->aim]));
     if (s->shares.of)
         ui = file_json_with(ui, "shares", view_shares_to_json(&s->shares));

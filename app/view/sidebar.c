@@ -348,7 +348,7 @@ double view_draw_sidebar(viewer *v) {
     const bool offered = !v->options->script && !v->options->record;
     if (!s->sidebar && !offered)
         return width;
-    const double wide = fmin(VIEW_SIDEBAR_WIDTH * v->scale, 0.5 * width);
+    const double wide = fmin(VIEW_SIDEBAR_WIDTH * v->state.scale, 0.5 * width);
     bool open = s->sidebar;
     const bool seen = ui_sidebar_begin(VIEW_SIDEBAR_TITLE, wide, &open);
     s->sidebar = open;

@@ -76,7 +76,8 @@ bool view_state_open(const scene *world, view_tree *tree, const view_settings *s
     s->world = world;
     s->tree = tree;
     s->now = *settings;
-    s->overlay = true;
+    s->overlay = s->handles = true;
+    s->scale = 1;
     s->playing = animate != NULL;
     s->x = s->y = -1;
     s->walking = scene_is_inside(world);

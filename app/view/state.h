@@ -17,7 +17,7 @@ typedef enum view_event_kind {
     VIEW_RELEASE, /* a button */
     VIEW_SCROLL,  /* by y steps, forward > 0 */
     VIEW_KEY,     /* a key of view_keys, by its name, or a character for the panel */
-    VIEW_HOLD,    /* one of the keys wasdqe, by its position on a US keyboard */
+    VIEW_HOLD,    /* one of the keys wasdqe, by its position on a US keyboard; c: Ctrl */
     VIEW_FREE,    /* a held key is released; 0: all of them */
     VIEW_DROP,    /* a file, dropped at the pointer */
     VIEW_TYPE,    /* the characters of a text, one after the other, as keys */
@@ -55,6 +55,7 @@ typedef enum view_drag {
     VIEW_DRAG_LOOK,
     VIEW_DRAG_LIGHT,
     VIEW_DRAG_AIM,
+    VIEW_DRAG_HANDLE,
     VIEW_DRAG_DIVIDER,
     VIEW_DRAG_SIDEBAR /* something of the interface */
 } view_drag;
@@ -67,6 +68,37 @@ typedef enum view_aim {
     VIEW_AIM_RIM,          /* it grazes the surface, from behind */
     VIEW_AIMS
 } view_aim;
+
+/* What a handle of the selected light changes (app/view/handles.h). */
+typedef enum view_handle_kind {
+    VIEW_HANDLE_NONE, /* nothing: it is only drawn */
+    VIEW_HANDLE_X,    /* the position along an axis of the world, */
+    VIEW_HANDLE_Y,
+    VIEW_HANDLE_Z,
+    VIEW_HANDLE_YZ, /* or in a plane */
+    VIEW_HANDLE_ZX,
+    VIEW_HANDLE_XY,
+    VIEW_HANDLE_DIRECTION,
+    VIEW_HANDLE_SIZE,  /* all lengths in proportion */
+    VIEW_HANDLE_WIDTH, /* half[0] of a rectangle or a tube */
+    VIEW_HANDLE_HEIGHT,
+    VIEW_HANDLE_RADIUS, /* of a tube */
+    VIEW_HANDLE_OUTER,
+    VIEW_HANDLE_INNER,
+    VIEW_HANDLE_ANGLE,
+    VIEW_HANDLES
+} view_handle_kind;
+
+/* A dragged handle, by what was there when the drag began. */
+typedef struct view_grip {
+    view_handle_kind handle;
+    lmp_vec3 center; /* of the handles */
+    lmp_vec3 axis;   /* unit, that the handle moves or measures along */
+    lmp_vec3 start;  /* where the axis or plane was grabbed */
+    float reach;     /* of what shows directions and angles */
+    float shown;     /* the length or angle at which the handle was */
+    bool far;        /* whether it was behind the light, as one looks */
+} view_grip;
 
 /* The open panel of values (app/view/panel.h), and the text typed into it. */
 enum { VIEW_TYPED_SIZE = 1024 };
@@ -106,14 +138,16 @@ typedef struct view_state {
     float grab_depth;      /* of the dragged light's center */
     double grab_x, grab_y; /* from the light's center in the image to the pointer */
     view_aim aim;
-    scene_light aimed;  /* as it was when the drag began */
-    float aim_distance; /* of an aimed light from the surface */
-    double x, y;        /* of the pointer */
-    bool held[6], fast; /* the keys wasdqe; shift with them */
-    bool walking;       /* whether the left button looks around, as inside a building */
+    scene_light grabbed; /* the dragged light as it was when the drag of an aim or handle began */
+    float aim_distance;  /* of an aimed light from the surface */
+    view_grip grip;      /* of the dragged handle */
+    double x, y;         /* of the pointer */
+    double scale;        /* of the display, relative to 96 pixels per inch */
+    bool held[7], fast;  /* the keys wasdqe and Ctrl; shift with them */
+    bool walking;        /* whether the left button looks around, as inside a building */
     view_panel panel;
     view_shares shares; /* those asked for last */
-    bool help, overlay, sidebar, recording;
+    bool help, overlay, sidebar, handles, recording;
     int camera;                   /* the scene's camera chosen last */
     char dropped[VIEW_PATH_SIZE]; /* the material dropped last */
     char other[VIEW_PATH_SIZE];   /* another scene to open, or empty */

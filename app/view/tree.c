@@ -36,6 +36,12 @@ view_tree *view_tree_begin(const scene *world, base_error *error) {
     return tree;
 }
 
+bool view_tree_is_built(view_tree *tree) {
+    if (tree->building && pthread_tryjoin_np(tree->builder, NULL) == 0)
+        tree->building = false;
+    return !tree->building;
+}
+
 const trace_bvh *view_tree_wait(view_tree *tree) {
     if (tree->building)
         pthread_join(tree->builder, NULL);

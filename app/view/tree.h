@@ -14,6 +14,9 @@ typedef struct view_tree view_tree;
 view_tree *view_tree_begin(const scene *scene, base_error *error);
 void view_tree_end(view_tree *tree);
 
+/* Whether the tree is there already. */
+bool view_tree_is_built(view_tree *tree);
+
 /* Returns the tree once it is built; NULL if memory ran out. */
 const trace_bvh *view_tree_wait(view_tree *tree);
 

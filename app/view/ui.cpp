@@ -20,6 +20,7 @@ namespace {
 
 constexpr float TEXT_PIXELS = 15; /* at 96 pixels per inch */
 constexpr double SECONDS_MIN = 1e-4;
+constexpr int UI_PATH_MAX = 64;
 
 /* Fonts where Debian, Fedora and Arch have them. Each gives the characters that those before it
  * lack. */
@@ -56,8 +57,9 @@ struct interface {
 interface *self;
 
 const ImU32 colors[] = { IM_COL32(242, 242, 240, 255), IM_COL32(168, 176, 189, 255),
-                         IM_COL32(255, 189, 97, 255), IM_COL32(13, 15, 20, 199),
-                         IM_COL32(13, 15, 20, 237) };
+                         IM_COL32(255, 189, 97, 255),  IM_COL32(13, 15, 20, 199),
+                         IM_COL32(13, 15, 20, 237),    IM_COL32(240, 84, 84, 255),
+                         IM_COL32(120, 206, 84, 255),  IM_COL32(84, 148, 255, 255) };
 
 /* --- the font --------------------------------------------------------------------------------- */
 
@@ -465,9 +467,24 @@ void ui_box(double x, double y, double width, double height, double radius, ui_c
                                                   colors[color], static_cast<float>(radius));
 }
 
-void ui_ring(double x, double y, double radius) {
+void ui_path(const float (*points)[2], int count, ui_shape shape, double width, ui_color color,
+             double opacity) {
     ImDrawList *list = ImGui::GetBackgroundDrawList();
-    const float scale = static_cast<float>(self->scale), r = static_cast<float>(radius);
-    list->AddCircle(place(x, y), r, IM_COL32(0, 0, 0, 153), 0, 4 * scale);
-    list->AddCircle(place(x, y), r, IM_COL32(255, 255, 255, 242), 0, 1.8f * scale);
+    ImVec2 path[UI_PATH_MAX];
+    const int used = count < UI_PATH_MAX ? count : UI_PATH_MAX;
+    for (int i = 0; i < used; i++)
+        path[i] = ImVec2(points[i][0], points[i][1]);
+    const auto faded = [opacity](ImU32 solid) {
+        ImVec4 rgba = ImGui::ColorConvertU32ToFloat4(solid);
+        rgba.w *= static_cast<float>(opacity);
+        return ImGui::ColorConvertFloat4ToU32(rgba);
+    };
+    const auto wide = static_cast<float>(width * self->scale);
+    const auto edge = wide + 2.2f * static_cast<float>(self->scale);
+    const ImDrawFlags closed = shape == UI_OPEN ? ImDrawFlags_None : ImDrawFlags_Closed;
+    list->AddPolyline(path, used, faded(IM_COL32(0, 0, 0, 153)), closed, edge);
+    if (shape == UI_FILLED)
+        list->AddConvexPolyFilled(path, used, faded(colors[color]));
+    else
+        list->AddPolyline(path, used, faded(colors[color]), closed, wide);
 }

@@ -95,7 +95,16 @@ bool ui_find(const char *name, double *x, double *y);
 
 /* --- drawings --------------------------------------------------------------------------------- */
 
-typedef enum ui_color { UI_INK, UI_PALE, UI_ACCENT, UI_PAPER, UI_SOLID_PAPER } ui_color;
+typedef enum ui_color {
+    UI_INK,
+    UI_PALE,
+    UI_ACCENT,
+    UI_PAPER,
+    UI_SOLID_PAPER,
+    UI_RED,
+    UI_GREEN,
+    UI_BLUE
+} ui_color;
 
 /* Returns the height of text. */
 double ui_text_height(void);
@@ -106,7 +115,12 @@ void ui_measure(const char *text, double size, double room, double *width, doubl
 
 void ui_write(double x, double y, const char *text, double size, double room, ui_color color);
 void ui_box(double x, double y, double width, double height, double radius, ui_color color);
-void ui_ring(double x, double y, double radius);
+
+/* Draws a path through points: open, closed, or filled if it is convex; its edge is dark, to be
+ * seen on anything. */
+typedef enum ui_shape { UI_OPEN, UI_CLOSED, UI_FILLED } ui_shape;
+void ui_path(const float (*points)[2], int count, ui_shape shape, double width, ui_color color,
+             double opacity);
 
 #ifdef __cplusplus
 }

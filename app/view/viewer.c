@@ -21,7 +21,7 @@ static bool open_graphics(viewer *v, base_error *error) {
     if (!v->window)
         return false;
     view_show_title(v);
-    v->scale = view_window_scale(v->window);
+    v->state.scale = view_window_scale(v->window);
     return gpu_context_adopt(&v->context, error) &&
            (v->compositor = view_compositor_create(&v->context, v->world, v->tree, error)) &&
            (ui_open(true, view_window_copy, view_window_paste) ||
@@ -119,7 +119,7 @@ static bool loop(viewer *v, base_error *error) {
     double before = view_window_clock();
     bool busy = true, worked;
     while (!v->state.requests.quit && (v->options->frames == 0 || v->frame < v->options->frames)) {
-        v->scale = view_window_scale(v->window);
+        v->state.scale = view_window_scale(v->window);
         view_window_take_events(v->window, busy || view_steps_time(v) ? 0 : 0.05);
         pass_time(v, &before);
         if (!play_script(v, error))
@@ -186,7 +186,7 @@ static bool open_viewer(viewer *v, base_error *error) {
     if (!open_graphics(v, error))
         return false;
     v->state.sidebar =
-        !o->script && !o->record && v->state.now.width >= 3 * VIEW_SIDEBAR_WIDTH * v->scale;
+        !o->script && !o->record && v->state.now.width >= 3 * VIEW_SIDEBAR_WIDTH * v->state.scale;
     if (o->expose && !view_expose(v, error))
         return false;
     v->state.now.exposure *= o->expose ? o->settings.exposure : 1;

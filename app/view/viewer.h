@@ -52,7 +52,6 @@ typedef struct viewer {
     double show_seconds; /* part of these: scaling, drawings over the image, and the window */
     view_statistics statistics;
     view_told told;
-    double scale;        /* of the display, relative to 96 pixels per inch */
     uint64_t laid, over; /* hashes of the interface's last frame, and of the one on the screen */
     double laid_at;      /* seconds: when the last frame was described */
     double uncovered;    /* width of the image beside the sidebar, in pixels */

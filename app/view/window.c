@@ -99,13 +99,19 @@ static void on_character(GLFWwindow *glfw, unsigned character) {
         tell(glfw, (view_event) { .kind = VIEW_KEY, .text = text });
 }
 
-/* Returns the flying key by its position on the keyboard. */
-static char flying_letter(int key) {
+/* Returns the flying key by its position on the keyboard, or c for Ctrl. */
+static char held_letter(int key) {
     static const struct {
         int key;
         char letter;
-    } letters[] = { { GLFW_KEY_W, 'w' }, { GLFW_KEY_A, 'a' }, { GLFW_KEY_S, 's' },
-                    { GLFW_KEY_D, 'd' }, { GLFW_KEY_Q, 'q' }, { GLFW_KEY_E, 'e' } };
+    } letters[] = { { GLFW_KEY_W, 'w' },
+                    { GLFW_KEY_A, 'a' },
+                    { GLFW_KEY_S, 's' },
+                    { GLFW_KEY_D, 'd' },
+                    { GLFW_KEY_Q, 'q' },
+                    { GLFW_KEY_E, 'e' },
+                    { GLFW_KEY_LEFT_CONTROL, 'c' },
+                    { GLFW_KEY_RIGHT_CONTROL, 'c' } };
     for (size_t i = 0; i < sizeof letters / sizeof *letters; i++)
         if (letters[i].key == key)
             return letters[i].letter;
@@ -146,14 +152,14 @@ static const char *name_of(int key) {
 static void on_key(GLFWwindow *glfw, int key, int position, int action, int modifiers) {
     (void)position;
     const bool shift = modifiers & GLFW_MOD_SHIFT, control = modifiers & GLFW_MOD_CONTROL;
-    const char letter = flying_letter(key);
+    const char letter = held_letter(key);
     const char *typed = lib.glfwGetKeyName(key, 0);
     if (control && action == GLFW_PRESS && typed && typed[0] >= 'a' && typed[0] <= 'z') {
         const char text[] = { 'C', 't', 'r', 'l', '+', (char)(typed[0] - 'a' + 'A'), '\0' };
         tell(glfw, (view_event) { .kind = VIEW_KEY, .text = text });
         return;
     }
-    if (letter && action != GLFW_REPEAT && !(control && action == GLFW_PRESS))
+    if (letter && action != GLFW_REPEAT && (letter == 'c' || !control || action == GLFW_RELEASE))
         tell(glfw, (view_event) { .kind = action == GLFW_PRESS ? VIEW_HOLD : VIEW_FREE,
                                   .letter = letter,
                                   .shift = shift });

@@ -17,7 +17,7 @@ static const view_options options = { .fps = 30 };
 /* Opens a viewer of a scene that is open. */
 static void begin(void) {
     static view_settings drawn;
-    v = (viewer) { .options = &options, .state = state, .drawn = &drawn, .scale = 1 };
+    v = (viewer) { .options = &options, .state = state, .drawn = &drawn };
     v.state.now.width = WIDTH;
     v.state.now.height = HEIGHT;
     v.state.now.light_count = 2;
@@ -78,7 +78,7 @@ typedef struct outcome {
     char message[VIEW_MESSAGE_SIZE];
     double seconds;
     int selected, path, camera;
-    bool playing, help, overlay, sidebar, walking;
+    bool playing, help, overlay, sidebar, handles, walking;
     view_panel_kind panel;
     size_t next_number;
     bool muted, solo;
@@ -98,6 +98,7 @@ static void note(outcome *o) {
     o->help = s->help;
     o->overlay = s->overlay;
     o->sidebar = s->sidebar;
+    o->handles = s->handles;
     o->walking = s->walking;
     o->panel = s->panel.kind;
     o->next_number = s->next_number;
