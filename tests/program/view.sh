@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # view.sh PART: lampion view in a window. session: by real input, checked step by step, by its state and images;
-# script, shadows, bounces, edit, aim: what scripts do; sidebar: what the mouse does alone; refusals.
+# script, shadows, bounces, edit, aim: what scripts do; sidebar, handles: what the mouse does alone; refusals.
 set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
@@ -46,6 +46,12 @@ echo '{ "lights": [ { "position": [0, 1, 3], "radius": 0.2, "radiance": 20 },
 value() {
     sed -n "s/^[[:space:]]*\"$1\":[[:space:]]*\(.*[^,]\),\{0,1\}$/\1/p" state.json 2>/dev/null | head -n 1
 }
+
+# place NAME: prints where the heading, button or handle is.
+place() {
+    tr -d '\n' <state.json 2>/dev/null | sed -n "s/.*\"$1\": *\[ *\([0-9]*\)[^,]*, *\([0-9]*\).*/\1 \2/p"
+}
+seen() { [ -n "$(place "$1")" ]; }
 
 # second NAME: prints the value of the other side.
 second() {
@@ -308,11 +314,6 @@ EDIT
 
 test_sidebar() {
     # actions by the mouse alone, by a key and by a script: the same settings
-    # place NAME: prints where the heading or button is.
-    place() {
-        tr -d '\n' <state.json 2>/dev/null | sed -n "s/.*\"$1\": *\[ *\([0-9]*\)[^,]*, *\([0-9]*\).*/\1 \2/p"
-    }
-    seen() { [ -n "$(place "$1")" ]; }
     click_on() {
         until_true "seeing $1" seen "$1"
         xdotool mousemove $(place "$1") click 1
@@ -384,6 +385,59 @@ SET
 
     diff by_button.txt by_key.txt || fail "buttons and keys differ"
     diff by_key.txt by_script.txt || fail "keys and scripts differ"
+}
+
+test_handles() {
+    # the light's arrow is dragged by the mouse, by steps while Ctrl is held, and undone; no screenshot shows a handle
+    sized="room.obj --lights lights.json --framing outside --eye 0,1,6 --target 0,1,0 --size 640x480 --samples 1"
+    "$PROGRAM" view $sized --state state.json 2>view.err &
+    viewer=$!
+    trap 'kill $viewer 2>/dev/null || true' EXIT
+    until_true "opening" is value height 480
+    xdotool mousemove 40 440 key Tab
+    until_true "seeing the arrow" seen x
+    xdotool key p
+    until_true "a screenshot with handles" test -s lampion-0001.png
+    xdotool key ctrl+h
+    hidden() { ! seen x; }
+    until_true "no handles" hidden
+    xdotool key p
+    until_true "a screenshot without handles" test -s lampion-0002.png
+    cmp lampion-0001.png lampion-0002.png || fail "handles are in a screenshot"
+    xdotool key ctrl+h
+    until_true "seeing the arrow again" seen x
+
+    position=$(value position)
+    start=$(place x)
+    column=${start% *}
+    row=${start#* }
+    xdotool mousemove $start mousedown 1 mousemove $((column + 10)) $row mousemove $((column + 41)) $row
+    # the light has come to rest: its arrow is where the pointer is
+    arrived() { [ "$(place x)" = "$((column + 41)) $row" ] || [ "$(place x)" = "$((column + 40)) $row" ]; }
+    until_true "dragging the arrow" arrived
+    dragged=$(value position)
+    xdotool keydown ctrl
+    until_true "steps" isnt value position "$dragged"
+    stepped=$(value position)
+    echo "$stepped" | grep -q '^\[0\.[1-9], 1, 3\]$' || fail "steps of 0.1 lead to $stepped"
+    xdotool mouseup 1 keyup ctrl key ctrl+z
+    until_true "undoing" is value position "$position"
+    xdotool key ctrl+q
+    wait $viewer || fail "quitting: $?: $(cat view.err)"
+
+    # the same by a script
+    cat >drag.txt <<DRAG
+0   key Tab
+0.1 move $start
+0.2 press left
+0.3 move $((column + 41)) $row
+0.4 hold ctrl
+0.5 release left
+0.6 free ctrl
+0.7 key Ctrl+Q
+DRAG
+    "$PROGRAM" view $sized --script drag.txt --state state.json || fail "the script ends in $?"
+    is value position "$stepped" || fail "the script leads to $(value position), not $stepped"
 }
 
 test_refusals() {

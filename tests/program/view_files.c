@@ -146,9 +146,9 @@ static void scripts_are_read_strictly(void **unused) {
         read_script("# a demonstration\n0 move 10 20.5\n0.5 press left shift\n\n"
                     "1 release left # let go\n1 key ?\n2 hold w\n2 free w\n3 scroll -2\n"
                     "4 drop a file.binary  # gold\n4 type 1, 2\n5 size 320 200\n6 shot out.png\n"
-                    "6 press \"Add light\"\n7 key Ctrl+Q",
+                    "6 press \"Add light\"\n7 key Ctrl+Q\n8 hold ctrl",
                     &script));
-    assert_int_equal(script.count, 13);
+    assert_int_equal(script.count, 14);
     assert_int_equal(script.lines[11].event.kind, VIEW_ACT);
     assert_string_equal(script.lines[11].event.text, "Add light");
     CHECK_NEAR(20.5, script.lines[0].event.y, 0);
@@ -158,6 +158,7 @@ static void scripts_are_read_strictly(void **unused) {
     assert_int_equal(script.lines[8].event.kind, VIEW_TYPE);
     assert_string_equal(script.lines[8].event.text, "1, 2");
     assert_int_equal(script.lines[10].kind, VIEW_SCRIPT_SHOT);
+    assert_int_equal(script.lines[13].event.letter, 'c');
     view_script_free(&script);
     static const char *const bad[] = { "x",
                                        "1",
@@ -171,6 +172,7 @@ static void scripts_are_read_strictly(void **unused) {
                                        "1 press \"Add lights\"",
                                        "1 press \"\"",
                                        "1 hold z",
+                                       "1 hold c",
                                        "2 key m\n1 key m",
                                        "1 size 0 5",
                                        "-1 key m",

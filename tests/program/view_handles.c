@@ -356,7 +356,7 @@ static void cones_open_to_the_pointer(void **unused) {
     light->outer = 0.8f;
     light->inner = 0.5f;
     assert_true(grab(VIEW_HANDLE_INNER, &x, &y));
-    at(x + 0.4 * (x - cx), y);
+    at(x + 0.1 * (x - cx), y - 30);
     CHECK_WITHIN(off_circle(VIEW_HANDLE_INNER), 4);
     assert_true(light->inner > 0.55f);
     at(x + 5 * (x - cx), y);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The viewer's sidebar: every action by its button, its key and its word in scripts. */
-#include "app/view/ui.h"
+#include "app/view/handles.h"
 #include "app/view/viewer.h"
 #include "tests/program/folder.h"
 #include "tests/program/view.h"
@@ -497,6 +497,31 @@ static void what_happens_over_the_sidebar_does_not_reach_the_image(void **unused
     assert_true(memcmp(&before, &v.state.now.camera, sizeof before) != 0);
 }
 
+/* The handle under the pointer stands out, unless the sidebar is over it, and all can go. */
+static void handles_are_drawn_while_they_are_on(void **unused) {
+    (void)unused;
+    view_marks marks;
+    take((view_event) { .kind = VIEW_MOVE, .x = 100, .y = 100 });
+    view_lay_out(&v, NULL, false);
+    const uint64_t drawn = v.laid;
+    view_find_marks(&v.state, &marks);
+    int i = 0;
+    while (marks.of[i].handle != VIEW_HANDLE_X)
+        i++;
+    take((view_event) {
+        .kind = VIEW_MOVE, .x = (double)marks.of[i].at[1][0], .y = (double)marks.of[i].at[1][1] });
+    view_lay_out(&v, NULL, false);
+    const uint64_t stands_out = v.laid;
+    assert_true(stands_out != drawn);
+    take((view_event) { .kind = VIEW_MOVE, .x = 100, .y = 100 });
+    by_key(view_find_action("Handles"));
+    view_lay_out(&v, NULL, false);
+    assert_true(v.laid != drawn && v.laid != stands_out);
+    by_key(view_find_action("Handles"));
+    view_lay_out(&v, NULL, false);
+    assert_true(v.laid == drawn);
+}
+
 /* What is dragged in the image goes on below the sidebar. */
 static void a_drag_of_the_image_stays_the_image_s(void **unused) {
     (void)unused;
@@ -553,6 +578,7 @@ int main(void) {
         TEST(muted_lights_are_kept_but_shine_no_more),
         TEST(the_last_of_many_lights_is_selected_in_the_list),
         TEST(what_happens_over_the_sidebar_does_not_reach_the_image),
+        TEST(handles_are_drawn_while_they_are_on),
         TEST(a_drag_of_the_image_stays_the_image_s),
         TEST(a_click_closes_the_help),
         TEST(the_title_folds_the_sidebar),
