@@ -36,14 +36,14 @@ const char *const view_handle_names[VIEW_HANDLES] = {
 static const lmp_vec3 axes[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
 
 /* The selected light as it is seen. */
-typedef struct sight {
+typedef struct seen_light {
     const view_state *state;
     scene_light light;
     bool moves;      /* whether it has a position */
     lmp_vec3 center; /* of the handles: its position, or else in the middle of the image */
     lmp_vec3 away;   /* unit, from the eye to there */
     float pixel;     /* the length of one at 96 per inch, there */
-} sight;
+} seen_light;
 
 static bool project(const view_state *s, lmp_vec3 point, double *x, double *y, double *scale) {
     return view_project(&s->now.camera, s->now.width, s->now.height, point, x, y, scale);
@@ -53,11 +53,11 @@ static view_ray pointer_ray(const view_state *s) {
     return view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
 }
 
-static bool see_light(const view_state *s, sight *seen) {
+static bool see_light(const view_state *s, seen_light *seen) {
     double x, y, scale;
     if (s->selected < 0)
         return false;
-    *seen = (sight) { .state = s, .light = view_shown_light(s, s->selected) };
+    *seen = (seen_light) { .state = s, .light = view_shown_light(s, s->selected) };
     seen->moves = scene_light_has(&seen->light, SCENE_LIGHT_POSITION);
     seen->center = seen->moves ? seen->light.emitter.position : vec_load(s->now.camera.target);
     if (!project(s, seen->center, &x, &y, &scale))
@@ -132,7 +132,7 @@ static void set_value(lmp_light *light, view_handle_kind handle, float value) {
 }
 
 /* Returns the length or angle at which a handle is: small ones are kept apart from the light. */
-static float shown_value(const sight *seen, view_handle_kind handle) {
+static float shown_value(const seen_light *seen, view_handle_kind handle) {
     return fmaxf(value_of(&seen->light.emitter, handle),
                  is_angle(handle) ? NEAREST / REACH : NEAREST * seen->pixel);
 }
@@ -153,7 +153,7 @@ static void add_pixel(view_mark *mark, double x, double y) {
 }
 
 /* Adds a path through points in the scene; returns NULL if one is behind the eye. */
-static view_mark *add_path(const sight *seen, view_marks *marks, view_handle_kind handle,
+static view_mark *add_path(const seen_light *seen, view_marks *marks, view_handle_kind handle,
                            ui_shape shape, const lmp_vec3 *points, int count) {
     view_mark *mark = add_mark(marks, handle, shape);
     double x, y, scale;
@@ -167,13 +167,13 @@ static view_mark *add_path(const sight *seen, view_marks *marks, view_handle_kin
     return mark;
 }
 
-static void add_line(const sight *seen, view_marks *marks, view_handle_kind handle, lmp_vec3 from,
-                     lmp_vec3 to) {
+static void add_line(const seen_light *seen, view_marks *marks, view_handle_kind handle,
+                     lmp_vec3 from, lmp_vec3 to) {
     add_path(seen, marks, handle, UI_OPEN, (const lmp_vec3[2]) { from, to }, 2);
 }
 
 /* Adds a circle around a unit axis, from its point along `first` on. */
-static void add_circle(const sight *seen, view_marks *marks, view_handle_kind handle,
+static void add_circle(const seen_light *seen, view_marks *marks, view_handle_kind handle,
                        lmp_vec3 center, lmp_vec3 axis, lmp_vec3 first, float radius) {
     lmp_vec3 points[VIEW_MARK_POINTS];
     const lmp_vec3 across = vec_cross(axis, first);
@@ -185,7 +185,7 @@ static void add_circle(const sight *seen, view_marks *marks, view_handle_kind ha
     add_path(seen, marks, handle, UI_CLOSED, points, VIEW_MARK_POINTS);
 }
 
-static void add_knob(const sight *seen, view_marks *marks, view_handle_kind handle,
+static void add_knob(const seen_light *seen, view_marks *marks, view_handle_kind handle,
                      lmp_vec3 point) {
     double x, y, scale;
     if (!project(seen->state, point, &x, &y, &scale))
@@ -197,7 +197,7 @@ static void add_knob(const sight *seen, view_marks *marks, view_handle_kind hand
 }
 
 /* Adds an arrow, whose head alone is a handle if its shaft is none. */
-static void add_arrow(const sight *seen, view_marks *marks, view_handle_kind shaft,
+static void add_arrow(const seen_light *seen, view_marks *marks, view_handle_kind shaft,
                       view_handle_kind head, lmp_vec3 from, lmp_vec3 to) {
     const view_mark *line =
         add_path(seen, marks, shaft, UI_OPEN, (const lmp_vec3[2]) { from, to }, 2);
@@ -216,11 +216,11 @@ static void add_arrow(const sight *seen, view_marks *marks, view_handle_kind sha
 }
 
 /* Returns the point from the center along a direction. */
-static lmp_vec3 from_center(const sight *seen, lmp_vec3 direction, float length) {
+static lmp_vec3 from_center(const seen_light *seen, lmp_vec3 direction, float length) {
     return vec_add(seen->center, vec_scale(direction, length));
 }
 
-static void add_moves(const sight *seen, view_marks *marks) {
+static void add_moves(const seen_light *seen, view_marks *marks) {
     const float from = SQUARE * seen->pixel, to = SQUARE_END * seen->pixel;
     for (int k = 0; k < 3; k++) {
         const lmp_vec3 a = axes[(k + 1) % 3], b = axes[(k + 2) % 3];
@@ -241,7 +241,7 @@ static void add_moves(const sight *seen, view_marks *marks) {
 
 /* Adds the outline of the sphere around the light that has its size: exactly what is seen of a
  * sphere. */
-static void add_ring(const sight *seen, view_marks *marks, view_handle_kind handle) {
+static void add_ring(const seen_light *seen, view_marks *marks, view_handle_kind handle) {
     const scene_camera *camera = &seen->state->now.camera;
     const lmp_vec3 up = vec_reject(vec(0, 1, 0), seen->away);
     const lmp_vec3 first =
@@ -255,7 +255,7 @@ static void add_ring(const sight *seen, view_marks *marks, view_handle_kind hand
 }
 
 /* Adds knobs on both sides of the light along a unit direction. */
-static void add_knobs(const sight *seen, view_marks *marks, view_handle_kind handle,
+static void add_knobs(const seen_light *seen, view_marks *marks, view_handle_kind handle,
                       lmp_vec3 direction) {
     const float length = shown_value(seen, handle);
     if (fabsf(vec_dot(direction, seen->away)) > ALONG)
@@ -265,7 +265,7 @@ static void add_knobs(const sight *seen, view_marks *marks, view_handle_kind han
 }
 
 /* Adds knobs where the outline of a tube is seen beside its middle. */
-static void add_outline_knobs(const sight *seen, view_marks *marks, lmp_vec3 axis) {
+static void add_outline_knobs(const seen_light *seen, view_marks *marks, lmp_vec3 axis) {
     const scene_camera *camera = &seen->state->now.camera;
     const lmp_vec3 way = vec_sub(seen->center, vec_load(camera->eye));
     const lmp_vec3 away = vec_reject(seen->away, axis), across = vec_cross(axis, away);
@@ -284,7 +284,7 @@ static lmp_vec3 side_of(const lmp_light *light, view_handle_kind handle) {
     return vec_normalize(light->half[handle == VIEW_HANDLE_HEIGHT], axes[0]);
 }
 
-static void add_sizes(const sight *seen, view_marks *marks) {
+static void add_sizes(const seen_light *seen, view_marks *marks) {
     const lmp_light *light = &seen->light.emitter;
     const bool sized = scene_light_extent(light) > 0;
     if (seen->moves)
@@ -298,7 +298,7 @@ static void add_sizes(const sight *seen, view_marks *marks) {
 }
 
 /* Adds the circle in which a cone around the direction meets a sphere. */
-static void add_angle(const sight *seen, view_marks *marks, view_handle_kind handle) {
+static void add_angle(const seen_light *seen, view_marks *marks, view_handle_kind handle) {
     const lmp_vec3 axis = scene_light_axis(&seen->light.emitter);
     const float angle = shown_value(seen, handle), reach = REACH * seen->pixel;
     const lmp_vec3 center = from_center(seen, axis, reach * cosf(angle));
@@ -312,7 +312,7 @@ static void add_angle(const sight *seen, view_marks *marks, view_handle_kind han
              vec_add(center, vec_scale(across, -reach * sinf(angle))));
 }
 
-static void add_direction(const sight *seen, view_marks *marks) {
+static void add_direction(const seen_light *seen, view_marks *marks) {
     const lmp_light *light = &seen->light.emitter;
     const lmp_vec3 axis = scene_light_axis(light);
     const lmp_vec3 tip = from_center(seen, axis, REACH * seen->pixel);
@@ -332,7 +332,7 @@ static void add_direction(const sight *seen, view_marks *marks) {
 }
 
 /* Adds the line from the light down to a surface, and a cross there. */
-static void add_plumb_line(const sight *seen, view_marks *marks) {
+static void add_plumb_line(const seen_light *seen, view_marks *marks) {
     const view_ray down = { .from = seen->center, .direction = { 0, -1, 0 }, .far = INFINITY };
     const view_hit hit = view_pick_surface(&down, seen->state->tree);
     double x, y, scale;
@@ -349,7 +349,7 @@ static void add_plumb_line(const sight *seen, view_marks *marks) {
 }
 
 /* Whether a surface lies between the eye and the light. */
-static bool is_hidden(const sight *seen) {
+static bool is_hidden(const seen_light *seen) {
     const view_state *s = seen->state;
     double x, y, scale;
     if (!seen->moves || !project(s, seen->center, &x, &y, &scale))
@@ -361,7 +361,7 @@ static bool is_hidden(const sight *seen) {
 }
 
 void view_find_marks(const view_state *s, view_marks *marks) {
-    sight seen;
+    seen_light seen;
     marks->count = 0;
     marks->hidden = false;
     if (!see_light(s, &seen))
@@ -486,7 +486,7 @@ static float miss_by(view_grip g, bool far, const view_ray *ray) {
 
 bool view_handle_begin(view_state *s) {
     view_marks marks;
-    sight seen;
+    seen_light seen;
     view_find_marks(s, &marks);
     const view_handle_kind handle = view_handle_at_pointer(s, &marks);
     if (handle == VIEW_HANDLE_NONE || !see_light(s, &seen))
