@@ -127,11 +127,11 @@ static void draw_handles(const view_state *s, bool covered) {
                                         : VIEW_HANDLE_NONE;
     for (int i = 0; i < marks.count; i++) {
         const view_mark *mark = &marks.of[i];
-        const bool handle = mark->handle != VIEW_HANDLE_NONE;
-        const bool stands_out = handle && mark->handle == chosen;
+        const bool stands_out = chosen != VIEW_HANDLE_NONE && mark->handle == chosen;
+        const bool pale = mark->handle == VIEW_HANDLE_NONE && mark->shape == UI_OPEN;
         ui_path(mark->at, mark->count, mark->shape, stands_out ? 3 : 1.8,
                 stands_out ? UI_ACCENT : color_of(mark->handle),
-                (marks.hidden ? 0.45 : 0.95) * (handle ? 1 : 0.6));
+                (marks.hidden ? 0.45 : 0.95) * (pale ? 0.6 : 1));
     }
 }
 
