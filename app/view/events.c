@@ -2,8 +2,8 @@
 /* events.c - what the pointer, the keys, dropped files and time do to the state. */
 #include "app/view/aim.h"
 #include "app/view/handles.h"
+#include "app/view/lights.h"
 #include "app/view/panel.h"
-#include "app/view/state.h"
 
 #include "app/scene/vector.h"
 
@@ -18,14 +18,6 @@
 #define FLY_FAST         4.0f
 #define WALK_STEP        0.02f /* of the diagonal, per step of the wheel */
 
-static float scene_diagonal(const scene *world) {
-    return vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
-}
-
-static view_ray pointer_ray(const view_state *s) {
-    return view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
-}
-
 /* --- the pointer ------------------------------------------------------------------------------ */
 
 /* Returns the ray through the middle of the image. */
@@ -36,7 +28,7 @@ static view_ray middle_ray(const view_state *s) {
 
 static int light_at_pointer(const view_state *s) {
     static view_settings shown;
-    const view_ray ray = pointer_ray(s);
+    const view_ray ray = view_pointer_ray(s);
     float light_distance = 0;
     view_shown(s, &shown);
     const int light =
@@ -165,9 +157,9 @@ static void scroll(view_state *s, double steps) {
         s->aim_distance = fminf(s->aim_distance / factor, LMP_LENGTH_MAX);
         view_aim_follow(s);
     } else if (s->walking && s->now.camera.height == 0) {
-        view_fly(&s->now.camera, 0, 0, (float)steps * WALK_STEP * scene_diagonal(s->world));
+        view_fly(&s->now.camera, 0, 0, (float)steps * WALK_STEP * view_scene_diagonal(s->world));
     } else {
-        view_dolly(&s->now.camera, factor, 0.01f * scene_diagonal(s->world));
+        view_dolly(&s->now.camera, factor, 0.01f * view_scene_diagonal(s->world));
     }
 }
 
@@ -312,7 +304,7 @@ void view_advance(view_state *s, double seconds) {
     if (s->playing)
         s->seconds += seconds;
     const float step =
-        (float)seconds * FLY_SPEED * scene_diagonal(s->world) * (s->fast ? FLY_FAST : 1);
+        (float)seconds * FLY_SPEED * view_scene_diagonal(s->world) * (s->fast ? FLY_FAST : 1);
     const float right = (float)(s->held[3] - s->held[1]), up = (float)(s->held[5] - s->held[4]);
     const float forward = (float)(s->held[0] - s->held[2]);
     const scene_camera before = s->now.camera;

@@ -35,35 +35,32 @@ const char *const view_handle_names[VIEW_HANDLES] = {
 
 static const lmp_vec3 axes[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
 
-/* The selected light as it is seen. */
-typedef struct seen_light {
+/* The selected light as it is seen, and the marks to which its handles are added. */
+typedef struct sketch {
     const view_state *state;
+    view_marks *marks;
     scene_light light;
     bool moves;      /* whether it has a position */
     lmp_vec3 center; /* of the handles: its position, or else in the middle of the image */
-    lmp_vec3 away;   /* unit, from the eye to there */
+    view_ray ray;    /* from the eye to there */
     float pixel;     /* the length of one at 96 per inch, there */
-} seen_light;
+} sketch;
 
 static bool project(const view_state *s, lmp_vec3 point, double *x, double *y, double *scale) {
     return view_project(&s->now.camera, s->now.width, s->now.height, point, x, y, scale);
 }
 
-static view_ray pointer_ray(const view_state *s) {
-    return view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
-}
-
-static bool see_light(const view_state *s, seen_light *seen) {
+static bool see_light(const view_state *s, sketch *k) {
     double x, y, scale;
     if (s->selected < 0)
         return false;
-    *seen = (seen_light) { .state = s, .light = view_shown_light(s, s->selected) };
-    seen->moves = scene_light_has(&seen->light, SCENE_LIGHT_POSITION);
-    seen->center = seen->moves ? seen->light.emitter.position : vec_load(s->now.camera.target);
-    if (!project(s, seen->center, &x, &y, &scale))
+    *k = (sketch) { .state = s, .light = view_shown_light(s, s->selected) };
+    k->moves = scene_light_has(&k->light, SCENE_LIGHT_POSITION);
+    k->center = k->moves ? k->light.emitter.position : vec_load(s->now.camera.target);
+    if (!project(s, k->center, &x, &y, &scale))
         return false;
-    seen->away = view_ray_through(&s->now.camera, s->now.width, s->now.height, x, y).direction;
-    seen->pixel = (float)(s->scale / scale);
+    k->ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, x, y);
+    k->pixel = (float)(s->scale / scale);
     return true;
 }
 
@@ -77,70 +74,60 @@ static bool is_angle(view_handle_kind handle) {
     return handle >= VIEW_HANDLE_OUTER;
 }
 
-/* Returns what a handle changes: a length or an angle. */
-static float value_of(const lmp_light *light, view_handle_kind handle) {
-    switch (handle) {
-    case VIEW_HANDLE_SIZE:
-        return scene_light_extent(light);
-    case VIEW_HANDLE_WIDTH:
-    case VIEW_HANDLE_HEIGHT:
-        return vec_length(light->half[handle - VIEW_HANDLE_WIDTH]);
-    case VIEW_HANDLE_RADIUS:
-        return light->radius;
-    case VIEW_HANDLE_OUTER:
-        return light->outer;
-    case VIEW_HANDLE_INNER:
-        return light->inner;
-    case VIEW_HANDLE_ANGLE:
-        return light->angle;
-    default:
-        return 0;
-    }
+/* Returns half of a side, or of a tube's axis. */
+static lmp_vec3 *half_of(lmp_light *light, view_handle_kind handle) {
+    return &light->half[handle == VIEW_HANDLE_HEIGHT];
 }
 
-/* Changes it. The power of an area stays, as that of all that is resized does. */
+/* Returns the number that a handle changes, if it is one member. */
+static float *member_of(lmp_light *light, view_handle_kind handle) {
+    return handle == VIEW_HANDLE_OUTER   ? &light->outer
+           : handle == VIEW_HANDLE_INNER ? &light->inner
+           : handle == VIEW_HANDLE_ANGLE ? &light->angle
+                                         : &light->radius;
+}
+
+/* Returns what a handle changes: a length or an angle. */
+static float value_of(const lmp_light *light, view_handle_kind handle) {
+    lmp_light copy = *light;
+    if (handle == VIEW_HANDLE_SIZE)
+        return scene_light_extent(light);
+    return handle == VIEW_HANDLE_WIDTH || handle == VIEW_HANDLE_HEIGHT
+               ? vec_length(*half_of(&copy, handle))
+               : *member_of(&copy, handle);
+}
+
+/* Changes it. An area keeps its power, as all that is resized does. */
 static void set_value(lmp_light *light, view_handle_kind handle, float value) {
     const lmp_light before = *light;
     const float by = value / value_of(light, handle);
-    switch (handle) {
-    case VIEW_HANDLE_SIZE:
-        scene_light_resize(light, by);
-        return;
-    case VIEW_HANDLE_WIDTH:
-    case VIEW_HANDLE_HEIGHT:
-        light->half[handle - VIEW_HANDLE_WIDTH] =
-            vec_scale(light->half[handle - VIEW_HANDLE_WIDTH], by);
-        break;
-    case VIEW_HANDLE_RADIUS:
-        light->radius = value;
-        break;
-    case VIEW_HANDLE_OUTER:
-        light->outer = fminf(value, PI);
+    if (is_angle(handle)) {
+        *member_of(light, handle) = fminf(value, handle == VIEW_HANDLE_INNER ? light->outer : PI);
         light->inner = fminf(light->inner, light->outer);
         return;
-    case VIEW_HANDLE_INNER:
-        light->inner = fminf(value, light->outer);
-        return;
-    case VIEW_HANDLE_ANGLE:
-        light->angle = fminf(value, PI);
-        return;
-    default:
+    }
+    if (handle == VIEW_HANDLE_SIZE) {
+        scene_light_resize(light, by);
         return;
     }
+    if (handle == VIEW_HANDLE_RADIUS)
+        light->radius = value;
+    else
+        *half_of(light, handle) = vec_scale(*half_of(light, handle), by);
     light->radiance = rgb_scale(light->radiance, lmp_light_radiance_from_power(light, 1) /
                                                      lmp_light_radiance_from_power(&before, 1));
 }
 
 /* Returns the length or angle at which a handle is: small ones are kept apart from the light. */
-static float shown_value(const seen_light *seen, view_handle_kind handle) {
-    return fmaxf(value_of(&seen->light.emitter, handle),
-                 is_angle(handle) ? NEAREST / REACH : NEAREST * seen->pixel);
+static float shown_value(const sketch *k, view_handle_kind handle) {
+    return fmaxf(value_of(&k->light.emitter, handle),
+                 is_angle(handle) ? NEAREST / REACH : NEAREST * k->pixel);
 }
 
 /* --- marks ------------------------------------------------------------------------------------ */
 
-static view_mark *add_mark(view_marks *marks, view_handle_kind handle, ui_shape shape) {
-    view_mark *mark = &marks->of[marks->count++];
+static view_mark *add_mark(const sketch *k, view_handle_kind handle, ui_shape shape) {
+    view_mark *mark = &k->marks->of[k->marks->count++];
     mark->handle = handle;
     mark->shape = shape;
     mark->count = 0;
@@ -153,13 +140,13 @@ static void add_pixel(view_mark *mark, double x, double y) {
 }
 
 /* Adds a path through points in the scene; returns NULL if one is behind the eye. */
-static view_mark *add_path(const seen_light *seen, view_marks *marks, view_handle_kind handle,
-                           ui_shape shape, const lmp_vec3 *points, int count) {
-    view_mark *mark = add_mark(marks, handle, shape);
+static view_mark *add_path(const sketch *k, view_handle_kind handle, ui_shape shape,
+                           const lmp_vec3 *points, int count) {
+    view_mark *mark = add_mark(k, handle, shape);
     double x, y, scale;
     for (int i = 0; i < count; i++) {
-        if (!project(seen->state, points[i], &x, &y, &scale)) {
-            marks->count--;
+        if (!project(k->state, points[i], &x, &y, &scale)) {
+            k->marks->count--;
             return NULL;
         }
         add_pixel(mark, x, y);
@@ -167,219 +154,185 @@ static view_mark *add_path(const seen_light *seen, view_marks *marks, view_handl
     return mark;
 }
 
-static void add_line(const seen_light *seen, view_marks *marks, view_handle_kind handle,
-                     lmp_vec3 from, lmp_vec3 to) {
-    add_path(seen, marks, handle, UI_OPEN, (const lmp_vec3[2]) { from, to }, 2);
+static view_mark *add_line(const sketch *k, view_handle_kind handle, lmp_vec3 from, lmp_vec3 to) {
+    return add_path(k, handle, UI_OPEN, (const lmp_vec3[2]) { from, to }, 2);
 }
 
-/* Adds a circle around a unit axis, from its point along `first` on. */
-static void add_circle(const seen_light *seen, view_marks *marks, view_handle_kind handle,
-                       lmp_vec3 center, lmp_vec3 axis, lmp_vec3 first, float radius) {
+/* Adds a circle around a unit axis, which begins where it is farthest along `first`. */
+static void add_circle(const sketch *k, view_handle_kind handle, lmp_vec3 center, lmp_vec3 axis,
+                       lmp_vec3 first, float radius) {
     lmp_vec3 points[VIEW_MARK_POINTS];
-    const lmp_vec3 across = vec_cross(axis, first);
+    const lmp_vec3 a = vec_scale(vec_reject(first, axis), radius), b = vec_cross(axis, a);
     for (int i = 0; i < VIEW_MARK_POINTS; i++) {
         const float t = 2 * PI * (float)i / VIEW_MARK_POINTS;
-        points[i] = vec_add(center, vec_add(vec_scale(first, radius * cosf(t)),
-                                            vec_scale(across, radius * sinf(t))));
+        points[i] = vec_add(center, vec_add(vec_scale(a, cosf(t)), vec_scale(b, sinf(t))));
     }
-    add_path(seen, marks, handle, UI_CLOSED, points, VIEW_MARK_POINTS);
+    add_path(k, handle, UI_CLOSED, points, VIEW_MARK_POINTS);
 }
 
-static void add_knob(const seen_light *seen, view_marks *marks, view_handle_kind handle,
-                     lmp_vec3 point) {
+/* Returns the point from the center along a direction. */
+static lmp_vec3 at(const sketch *k, lmp_vec3 direction, float length) {
+    return vec_add(k->center, vec_scale(direction, length));
+}
+
+static void add_knob(const sketch *k, view_handle_kind handle, lmp_vec3 direction, float length) {
+    const double size = (double)KNOB * k->state->scale;
     double x, y, scale;
-    if (!project(seen->state, point, &x, &y, &scale))
+    if (!project(k->state, at(k, direction, length), &x, &y, &scale))
         return;
-    view_mark *mark = add_mark(marks, handle, UI_FILLED);
+    view_mark *mark = add_mark(k, handle, UI_FILLED);
     for (int i = 0; i < 16; i++)
-        add_pixel(mark, x + (double)KNOB * seen->state->scale * cos(0.125 * i * (double)PI),
-                  y + (double)KNOB * seen->state->scale * sin(0.125 * i * (double)PI));
+        add_pixel(mark, x + size * cos(0.125 * i * (double)PI),
+                  y + size * sin(0.125 * i * (double)PI));
 }
 
-/* Adds an arrow, whose head alone is a handle if its shaft is none. */
-static void add_arrow(const seen_light *seen, view_marks *marks, view_handle_kind shaft,
-                      view_handle_kind head, lmp_vec3 from, lmp_vec3 to) {
+/* Adds an arrow along a unit direction, whose shaft may be no handle. */
+static void add_arrow(const sketch *k, view_handle_kind shaft, view_handle_kind head,
+                      lmp_vec3 direction, float length) {
     const view_mark *line =
-        add_path(seen, marks, shaft, UI_OPEN, (const lmp_vec3[2]) { from, to }, 2);
+        add_line(k, shaft, at(k, direction, GAP * k->pixel), at(k, direction, length * k->pixel));
     if (!line)
         return;
     const double tip[2] = { (double)line->at[1][0], (double)line->at[1][1] };
-    double x = tip[0] - (double)line->at[0][0], y = tip[1] - (double)line->at[0][1];
-    const double length = hypot(x, y), size = seen->state->scale / (length > 0 ? length : 1);
-    x *= size;
-    y = length > 0 ? y * size : -size;
-    const double half = 0.5 * (double)HEAD_LENGTH, wide = (double)HEAD_WIDTH;
-    view_mark *mark = add_mark(marks, head, UI_FILLED);
+    const double x = tip[0] - (double)line->at[0][0], y = tip[1] - (double)line->at[0][1];
+    const double by = k->state->scale / fmax(hypot(x, y), 1e-3);
+    const double half = 0.5 * (double)HEAD_LENGTH * by, wide = (double)HEAD_WIDTH * by;
+    view_mark *mark = add_mark(k, head, UI_FILLED);
     add_pixel(mark, tip[0] + half * x, tip[1] + half * y);
     add_pixel(mark, tip[0] - half * x - wide * y, tip[1] - half * y + wide * x);
     add_pixel(mark, tip[0] - half * x + wide * y, tip[1] - half * y - wide * x);
 }
 
-/* Returns the point from the center along a direction. */
-static lmp_vec3 from_center(const seen_light *seen, lmp_vec3 direction, float length) {
-    return vec_add(seen->center, vec_scale(direction, length));
-}
-
-static void add_moves(const seen_light *seen, view_marks *marks) {
-    const float from = SQUARE * seen->pixel, to = SQUARE_END * seen->pixel;
-    for (int k = 0; k < 3; k++) {
-        const lmp_vec3 a = axes[(k + 1) % 3], b = axes[(k + 2) % 3];
-        const lmp_vec3 near = from_center(seen, a, from), far = from_center(seen, a, to);
+static void add_moves(const sketch *k) {
+    const float from = SQUARE * k->pixel, to = SQUARE_END * k->pixel;
+    for (unsigned i = 0; i < 3; i++) {
+        const lmp_vec3 a = axes[(i + 1) % 3], b = axes[(i + 2) % 3];
+        const lmp_vec3 near = at(k, a, from), far = at(k, a, to);
         const lmp_vec3 square[4] = { vec_add(near, vec_scale(b, from)),
                                      vec_add(far, vec_scale(b, from)),
                                      vec_add(far, vec_scale(b, to)),
                                      vec_add(near, vec_scale(b, to)) };
-        const float along = fabsf(vec_dot(axes[k], seen->away));
+        const float along = fabsf(vec_dot(axes[i], k->ray.direction));
         if (along > EDGE_ON)
-            add_path(seen, marks, VIEW_HANDLE_YZ + (unsigned)k, UI_FILLED, square, 4);
+            add_path(k, VIEW_HANDLE_YZ + i, UI_FILLED, square, 4);
         if (along < ALONG)
-            add_arrow(seen, marks, VIEW_HANDLE_X + (unsigned)k, VIEW_HANDLE_X + (unsigned)k,
-                      from_center(seen, axes[k], GAP * seen->pixel),
-                      from_center(seen, axes[k], ARROW * seen->pixel));
+            add_arrow(k, VIEW_HANDLE_X + i, VIEW_HANDLE_X + i, axes[i], ARROW);
     }
 }
 
 /* Adds the outline of the sphere around the light that has its size: exactly what is seen of a
- * sphere. */
-static void add_ring(const seen_light *seen, view_marks *marks, view_handle_kind handle) {
-    const scene_camera *camera = &seen->state->now.camera;
-    const lmp_vec3 up = vec_reject(vec(0, 1, 0), seen->away);
-    const lmp_vec3 first =
-        vec_scale(vec_add(up, vec_cross(seen->away, up)), -sqrtf(0.5f)); /* lower left */
-    const float radius = shown_value(seen, VIEW_HANDLE_SIZE);
-    const float distance = vec_length(vec_sub(seen->center, vec_load(camera->eye)));
+ * sphere. It begins opposite the arrows. */
+static void add_ring(const sketch *k, view_handle_kind handle) {
+    const scene_camera *camera = &k->state->now.camera;
+    const lmp_vec3 away = k->ray.direction;
+    const float radius = shown_value(k, VIEW_HANDLE_SIZE);
+    const float distance = vec_length(vec_sub(k->center, vec_load(camera->eye)));
     const float sine = camera->height > 0 ? 0 : radius / distance;
     if (sine < 1)
-        add_circle(seen, marks, handle, from_center(seen, seen->away, -radius * sine), seen->away,
-                   first, radius * sqrtf(1 - sine * sine));
+        add_circle(k, handle, at(k, away, -radius * sine), away, vec(-1, -1, -1),
+                   radius * sqrtf(1 - sine * sine));
 }
 
-/* Adds knobs on both sides of the light along a unit direction. */
-static void add_knobs(const seen_light *seen, view_marks *marks, view_handle_kind handle,
-                      lmp_vec3 direction) {
-    const float length = shown_value(seen, handle);
-    if (fabsf(vec_dot(direction, seen->away)) > ALONG)
+/* Adds knobs on both sides of the light. */
+static void add_knobs(const sketch *k, view_handle_kind handle, lmp_vec3 direction) {
+    const float length = shown_value(k, handle);
+    if (fabsf(vec_dot(direction, k->ray.direction)) > ALONG)
         return;
-    add_knob(seen, marks, handle, from_center(seen, direction, length));
-    add_knob(seen, marks, handle, from_center(seen, direction, -length));
+    add_knob(k, handle, direction, length);
+    add_knob(k, handle, direction, -length);
 }
 
-/* Adds knobs where the outline of a tube is seen beside its middle. */
-static void add_outline_knobs(const seen_light *seen, view_marks *marks, lmp_vec3 axis) {
-    const scene_camera *camera = &seen->state->now.camera;
-    const lmp_vec3 way = vec_sub(seen->center, vec_load(camera->eye));
-    const lmp_vec3 away = vec_reject(seen->away, axis), across = vec_cross(axis, away);
-    const float radius = shown_value(seen, VIEW_HANDLE_RADIUS);
-    const float sine = camera->height > 0 ? 0 : radius / vec_dot(way, away);
-    if (fabsf(vec_dot(axis, seen->away)) > ALONG || !(sine < 1))
-        return;
-    for (int side = -1; side <= 1; side += 2)
-        add_knob(seen, marks, VIEW_HANDLE_RADIUS,
-                 vec_add(from_center(seen, away, -radius * sine),
-                         vec_scale(across, (float)side * radius * sqrtf(1 - sine * sine))));
+/* Returns the unit direction that a handle moves or measures along. */
+static lmp_vec3 axis_of(const sketch *k, view_handle_kind handle) {
+    lmp_light light = k->light.emitter;
+    return is_move(handle) ? axes[(handle - VIEW_HANDLE_X) % 3]
+           : handle == VIEW_HANDLE_DIRECTION || is_angle(handle)
+               ? scene_light_axis(&light)
+               : vec_normalize(*half_of(&light, handle), axes[0]);
 }
 
-/* Returns the unit direction of half of a rectangle's side or of a tube. */
-static lmp_vec3 side_of(const lmp_light *light, view_handle_kind handle) {
-    return vec_normalize(light->half[handle == VIEW_HANDLE_HEIGHT], axes[0]);
-}
-
-static void add_sizes(const seen_light *seen, view_marks *marks) {
-    const lmp_light *light = &seen->light.emitter;
-    const bool sized = scene_light_extent(light) > 0;
-    if (seen->moves)
-        add_ring(seen, marks, sized ? VIEW_HANDLE_SIZE : VIEW_HANDLE_NONE);
+static void add_sizes(const sketch *k) {
+    const lmp_light *light = &k->light.emitter;
+    const lmp_vec3 axis = axis_of(k, VIEW_HANDLE_WIDTH);
+    add_ring(k, scene_light_extent(light) > 0 ? VIEW_HANDLE_SIZE : VIEW_HANDLE_NONE);
     if (light->kind == LMP_LIGHT_RECTANGLE || light->kind == LMP_LIGHT_TUBE)
-        add_knobs(seen, marks, VIEW_HANDLE_WIDTH, side_of(light, VIEW_HANDLE_WIDTH));
+        add_knobs(k, VIEW_HANDLE_WIDTH, axis);
     if (light->kind == LMP_LIGHT_RECTANGLE)
-        add_knobs(seen, marks, VIEW_HANDLE_HEIGHT, side_of(light, VIEW_HANDLE_HEIGHT));
-    if (light->kind == LMP_LIGHT_TUBE)
-        add_outline_knobs(seen, marks, side_of(light, VIEW_HANDLE_WIDTH));
+        add_knobs(k, VIEW_HANDLE_HEIGHT, axis_of(k, VIEW_HANDLE_HEIGHT));
+    if (light->kind == LMP_LIGHT_TUBE) /* beside it, as one looks */
+        add_knobs(k, VIEW_HANDLE_RADIUS, vec_reject(vec_cross(axis, k->ray.direction), axis));
 }
 
-/* Adds the circle in which a cone around the direction meets a sphere. */
-static void add_angle(const seen_light *seen, view_marks *marks, view_handle_kind handle) {
-    const lmp_vec3 axis = scene_light_axis(&seen->light.emitter);
-    const float angle = shown_value(seen, handle), reach = REACH * seen->pixel;
-    const lmp_vec3 center = from_center(seen, axis, reach * cosf(angle));
-    const lmp_vec3 across = vec_reject(vec_cross(axis, seen->away), axis);
-    add_circle(seen, marks, handle, center, axis, across, reach * sinf(angle));
-    if (handle != VIEW_HANDLE_OUTER)
-        return;
-    add_line(seen, marks, VIEW_HANDLE_NONE, seen->center,
-             vec_add(center, vec_scale(across, reach * sinf(angle))));
-    add_line(seen, marks, VIEW_HANDLE_NONE, seen->center,
-             vec_add(center, vec_scale(across, -reach * sinf(angle))));
+/* Adds the circle in which a cone around the direction meets a sphere, and the outline of the
+ * larger cone. */
+static void add_angle(const sketch *k, view_handle_kind handle) {
+    const lmp_vec3 axis = axis_of(k, handle);
+    const lmp_vec3 across = vec_reject(vec_cross(axis, k->ray.direction), axis);
+    const float angle = shown_value(k, handle), reach = REACH * k->pixel;
+    const float radius = reach * sinf(angle);
+    const lmp_vec3 center = at(k, axis, reach * cosf(angle));
+    add_circle(k, handle, center, axis, across, radius);
+    for (int side = -1; handle == VIEW_HANDLE_OUTER && side <= 1; side += 2)
+        add_line(k, VIEW_HANDLE_NONE, k->center,
+                 vec_add(center, vec_scale(across, (float)side * radius)));
 }
 
-static void add_direction(const seen_light *seen, view_marks *marks) {
-    const lmp_light *light = &seen->light.emitter;
+static void add_direction(const sketch *k) {
+    const lmp_light *light = &k->light.emitter;
     const lmp_vec3 axis = scene_light_axis(light);
-    const lmp_vec3 tip = from_center(seen, axis, REACH * seen->pixel);
     if (light->kind == LMP_LIGHT_SPOT) {
-        add_angle(seen, marks, VIEW_HANDLE_OUTER);
-        add_angle(seen, marks, VIEW_HANDLE_INNER);
+        add_angle(k, VIEW_HANDLE_OUTER);
+        add_angle(k, VIEW_HANDLE_INNER);
     }
     if (light->kind == LMP_LIGHT_CAP)
-        add_angle(seen, marks, VIEW_HANDLE_ANGLE);
-    if (!seen->moves) { /* it shines from there */
-        add_line(seen, marks, VIEW_HANDLE_NONE, seen->center, tip);
-        add_knob(seen, marks, VIEW_HANDLE_DIRECTION, tip);
+        add_angle(k, VIEW_HANDLE_ANGLE);
+    if (!k->moves) { /* it shines from there */
+        add_line(k, VIEW_HANDLE_NONE, k->center, at(k, axis, REACH * k->pixel));
+        add_knob(k, VIEW_HANDLE_DIRECTION, axis, REACH * k->pixel);
     } else if (vec_dot(axis, axis) > 0) {
-        add_arrow(seen, marks, VIEW_HANDLE_NONE, VIEW_HANDLE_DIRECTION,
-                  from_center(seen, axis, GAP * seen->pixel), tip);
+        add_arrow(k, VIEW_HANDLE_NONE, VIEW_HANDLE_DIRECTION, axis, REACH);
     }
 }
 
-/* Adds the line from the light down to a surface, and a cross there. */
-static void add_plumb_line(const seen_light *seen, view_marks *marks) {
-    const view_ray down = { .from = seen->center, .direction = { 0, -1, 0 }, .far = INFINITY };
-    const view_hit hit = view_pick_surface(&down, seen->state->tree);
-    double x, y, scale;
+/* Adds the line from the light down to a surface, and a circle there. */
+static void add_plumb_line(const sketch *k) {
+    const view_ray down = { .from = k->center, .direction = { 0, -1, 0 }, .far = INFINITY };
+    const view_hit hit = view_pick_surface(&down, k->state->tree);
     if (hit.mesh < 0)
         return;
-    const lmp_vec3 foot = from_center(seen, down.direction, hit.distance);
-    if (!project(seen->state, foot, &x, &y, &scale))
-        return;
-    const float size = (float)(seen->state->scale / scale) * KNOB;
-    add_line(seen, marks, VIEW_HANDLE_NONE, seen->center, foot);
-    for (int k = 0; k < 3; k += 2)
-        add_line(seen, marks, VIEW_HANDLE_NONE, vec_add(foot, vec_scale(axes[k], size)),
-                 vec_sub(foot, vec_scale(axes[k], size)));
+    const lmp_vec3 foot = at(k, down.direction, hit.distance);
+    add_line(k, VIEW_HANDLE_NONE, k->center, foot);
+    add_circle(k, VIEW_HANDLE_NONE, foot, down.direction, axes[0], KNOB * k->pixel);
 }
 
 /* Whether a surface lies between the eye and the light. */
-static bool is_hidden(const seen_light *seen) {
-    const view_state *s = seen->state;
-    double x, y, scale;
-    if (!seen->moves || !project(s, seen->center, &x, &y, &scale))
-        return false;
-    const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, x, y);
-    const float distance = vec_length(vec_sub(seen->center, ray.from));
-    const view_hit hit = view_pick_surface(&ray, s->tree);
-    return hit.mesh >= 0 && hit.distance < distance - scene_light_extent(&seen->light.emitter);
+static bool is_hidden(const sketch *k) {
+    const view_hit hit = view_pick_surface(&k->ray, k->state->tree);
+    const float distance = vec_length(vec_sub(k->center, k->ray.from));
+    return hit.mesh >= 0 && hit.distance < distance - scene_light_extent(&k->light.emitter);
 }
 
 void view_find_marks(const view_state *s, view_marks *marks) {
-    seen_light seen;
+    sketch k;
     marks->count = 0;
     marks->hidden = false;
-    if (!see_light(s, &seen))
+    const bool on = s->handles && s->aim == VIEW_AIM_OFF;
+    if (!see_light(s, &k) || (!on && !k.moves))
         return;
-    if (!s->handles || s->aim != VIEW_AIM_OFF) {
-        if (seen.moves)
-            add_ring(&seen, marks, VIEW_HANDLE_NONE);
+    k.marks = marks;
+    if (!on) {
+        add_ring(&k, VIEW_HANDLE_NONE);
         return;
     }
-    if (view_tree_is_built(s->tree)) {
-        marks->hidden = is_hidden(&seen);
-        if (seen.moves)
-            add_plumb_line(&seen, marks);
+    if (k.moves && view_tree_is_built(s->tree)) {
+        marks->hidden = is_hidden(&k);
+        add_plumb_line(&k);
     }
-    if (seen.moves)
-        add_moves(&seen, marks);
-    add_direction(&seen, marks);
-    add_sizes(&seen, marks);
+    if (k.moves)
+        add_moves(&k);
+    add_direction(&k);
+    if (k.moves)
+        add_sizes(&k);
 }
 
 /* --- the pointer ------------------------------------------------------------------------------ */
@@ -486,22 +439,19 @@ static float miss_by(view_grip g, bool far, const view_ray *ray) {
 
 bool view_handle_begin(view_state *s) {
     view_marks marks;
-    seen_light seen;
+    sketch k;
     view_find_marks(s, &marks);
     const view_handle_kind handle = view_handle_at_pointer(s, &marks);
-    if (handle == VIEW_HANDLE_NONE || !see_light(s, &seen))
+    if (handle == VIEW_HANDLE_NONE || !see_light(s, &k))
         return false;
-    const lmp_light *light = &seen.light.emitter;
-    const view_ray ray = pointer_ray(s);
+    const view_ray ray = view_pointer_ray(s);
     view_grip *g = &s->grip;
     *g = (view_grip) {
         .handle = handle,
-        .center = seen.center,
-        .axis = is_move(handle) ? axes[(handle - VIEW_HANDLE_X) % 3]
-                : handle == VIEW_HANDLE_DIRECTION || is_angle(handle) ? scene_light_axis(light)
-                                                                      : side_of(light, handle),
-        .reach = REACH * seen.pixel,
-        .shown = shown_value(&seen, handle),
+        .center = k.center,
+        .axis = axis_of(&k, handle),
+        .reach = REACH * k.pixel,
+        .shown = shown_value(&k, handle),
     };
     if (is_move(handle) && !find_point(g, &ray, &g->start))
         return false;
@@ -568,7 +518,7 @@ static void resize_light(const view_state *s, const view_ray *ray, bool steps, l
 
 void view_handle_follow(view_state *s) {
     const view_grip *g = &s->grip;
-    const view_ray ray = pointer_ray(s);
+    const view_ray ray = view_pointer_ray(s);
     const bool steps = s->held[6];
     scene_light changed = s->grabbed;
     lmp_light *light = &changed.emitter;

@@ -176,24 +176,11 @@ static void next_camera(view_state *s, int step) {
         first_camera(s, 0);
 }
 
-static void toggle_help(view_state *s, int unused) {
-    (void)unused;
-    s->help = !s->help;
-}
+enum { TOGGLE_HELP, TOGGLE_OVERLAY, TOGGLE_HANDLES, TOGGLE_SIDEBAR };
 
-static void toggle_overlay(view_state *s, int unused) {
-    (void)unused;
-    s->overlay = !s->overlay;
-}
-
-static void toggle_handles(view_state *s, int unused) {
-    (void)unused;
-    s->handles = !s->handles;
-}
-
-static void toggle_sidebar(view_state *s, int unused) {
-    (void)unused;
-    s->sidebar = !s->sidebar;
+static void toggle(view_state *s, int what) {
+    bool *const flags[] = { &s->help, &s->overlay, &s->handles, &s->sidebar };
+    *flags[what] = !*flags[what];
 }
 
 /* Switches the framing, as --framing inside and outside do. */
@@ -282,7 +269,7 @@ const view_key view_keys[] = {
 
     { NULL, "Lights", NULL, NULL, 0, NULL },
     { NULL, "left drag on one", "move it (wheel: in depth)", NULL, 0, NULL },
-    { "Ctrl+H", "Ctrl H", "handles on, off (Ctrl: by steps)", toggle_handles, 0, "Handles" },
+    { "Ctrl+H", "Ctrl H", "handles on, off (Ctrl: by steps)", toggle, TOGGLE_HANDLES, "Handles" },
     { "Tab", "Tab", "select the next", view_select_light, 1, "Next light" },
     { "Shift+Tab", NULL, NULL, view_select_light, -1, "Previous light" },
     { "n", "N", "new, over what is pointed at", view_add_light, 0, "Add light" },
@@ -323,14 +310,14 @@ const view_key view_keys[] = {
     { "Ctrl+C", "Ctrl C", "screenshot, and the command for it", request, REQUEST_COMMAND,
       "Copy command" },
     { "r", "R", "record an image sequence", request, REQUEST_RECORD, "Record" },
-    { "i", "I", "statistics on, off", toggle_overlay, 0, "Statistics" },
+    { "i", "I", "statistics on, off", toggle, TOGGLE_OVERLAY, "Statistics" },
     { "F5", "F5", "read the scene again", request, REQUEST_RELOAD, "Read again" },
     { "Shift+F5", "Shift F5", "start the graphics again", request, REQUEST_RESTART,
       "Restart the graphics" },
-    { "F3", "F3", "panel at the side on, off", toggle_sidebar, 0, "Panel" },
+    { "F3", "F3", "panel at the side on, off", toggle, TOGGLE_SIDEBAR, "Panel" },
     { "F11", "F11", "full screen", request, REQUEST_FULLSCREEN, "Full screen" },
-    { "F1", "F1  ?", "this help", toggle_help, 0, "Help" },
-    { "?", NULL, NULL, toggle_help, 0, NULL },
+    { "F1", "F1  ?", "this help", toggle, TOGGLE_HELP, "Help" },
+    { "?", NULL, NULL, toggle, TOGGLE_HELP, NULL },
     { "Escape", "Escape", "close the help, select nothing", step_back, 0, "Close, deselect" },
     { "Ctrl+Q", "Ctrl Q", "quit", request, REQUEST_QUIT, "Quit" },
     { NULL, NULL, NULL, NULL, 0, NULL },

@@ -134,24 +134,16 @@ static json_t *places_to_json(void) {
     return places;
 }
 
-/* Lists a place of each handle, for tests by input: the middle of a filled one, or else its first
- * point. */
+/* Lists where each handle of the selected light can be grabbed. */
 static json_t *handles_to_json(const view_state *s) {
     json_t *places = json_object();
     view_marks marks;
     view_find_marks(s, &marks);
-    for (int i = 0; i < marks.count; i++) {
-        const view_mark *mark = &marks.of[i];
-        const int count = mark->shape == UI_FILLED ? mark->count : 1;
-        double x = 0, y = 0;
-        for (int k = 0; k < count; k++) {
-            x += (double)mark->at[k][0] / count;
-            y += (double)mark->at[k][1] / count;
-        }
-        if (mark->handle != VIEW_HANDLE_NONE)
-            places =
-                file_json_with(places, view_handle_names[mark->handle], json_pack("[f, f]", x, y));
-    }
+    for (int i = 0; i < marks.count; i++)
+        if (marks.of[i].handle != VIEW_HANDLE_NONE)
+            places = file_json_with(
+                places, view_handle_names[marks.of[i].handle],
+                json_pack("[f, f]", (double)marks.of[i].at[0][0], (double)marks.of[i].at[0][1]));
     return places;
 }
 

@@ -213,8 +213,12 @@ scene_light view_shown_light(const view_state *s, int index) {
     return light;
 }
 
+view_ray view_pointer_ray(const view_state *s) {
+    return view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
+}
+
 view_hit view_hit_at_pointer(const view_state *s, view_ray *ray) {
-    *ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
+    *ray = view_pointer_ray(s);
     return view_pick_surface(ray, s->tree);
 }
 

@@ -189,7 +189,8 @@ scene_light view_shown_light(const view_state *state, int index);
 /* Returns the side that keys act on: the one under the pointer. */
 int view_side(const view_state *state);
 
-/* Returns the surface under the pointer, and the ray through it. */
+/* Returns the ray through the pointer, and the surface under it. */
+view_ray view_pointer_ray(const view_state *state);
 view_hit view_hit_at_pointer(const view_state *state, view_ray *ray);
 
 /* --- files.c: files that are opened ----------------------------------------------------------- */
