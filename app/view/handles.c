@@ -347,7 +347,7 @@ static double distance_to_line(const float *a, const float *b, double x, double 
 
 /* Returns the distance of a place from a mark: 0 within a filled one. */
 static double distance_to(const view_mark *mark, double x, double y) {
-    double nearest = INFINITY;
+    double nearest = HUGE_VAL;
     int left = 0;
     for (int i = mark->shape == UI_OPEN; i < mark->count; i++) {
         const float *a = mark->at[(i + mark->count - 1) % mark->count], *b = mark->at[i];

@@ -96,7 +96,7 @@ static void let_go(void) {
 static double parameter_at(lmp_vec3 from, lmp_vec3 axis, double x, double y) {
     double low = -3, high = 3, nearest = 0;
     for (int round = 0; round < 4; round++) {
-        double best = INFINITY;
+        double best = HUGE_VAL;
         const double step = (high - low) / 400;
         for (int i = 0; i <= 400; i++) {
             double px, py;
@@ -199,7 +199,7 @@ static void the_ring_gives_the_radius_that_is_seen_at_the_pointer(void **unused)
     int count = 0;
     for (int i = 0; i < check_count(60, 2000); i++) {
         lmp_light *light = look(i, LMP_LIGHT_SPHERE);
-        light->radius = between(0.5f, 1.5f);
+        light->radius = between(0.5, 1.5);
         const float power = light->radiance.r * light->radius * light->radius;
         double x, y, cx, cy;
         if (!grab(VIEW_HANDLE_SIZE, &x, &y)) { /* an arrow crosses the ring there */
@@ -243,7 +243,7 @@ static void small_lights_have_a_ring_too(void **unused) {
 /* Returns the distance of the ray through the pointer from a tube's axis. */
 static double miss_axis(const lmp_light *tube) {
     const view_ray ray = view_pointer_ray(&state);
-    double nearest = INFINITY;
+    double nearest = HUGE_VAL;
     for (int i = -20000; i <= 20000; i++) {
         const lmp_vec3 point = vec_add(tube->position, vec_scale(tube->half[0], (float)i / 10000));
         const lmp_vec3 way = vec_cross(vec_sub(point, ray.from), ray.direction);
@@ -279,7 +279,7 @@ static void knobs_follow_the_pointer(void **unused) {
             CHECK_NEAR(light->radius, miss_axis(light), 1e-3);
         } else {
             view_find_marks(&state, &marks);
-            double nearest = INFINITY;
+            double nearest = HUGE_VAL;
             for (int m = 0; m < marks.count; m++)
                 if (marks.of[m].handle == knobs[i].handle) {
                     middle_of(&marks.of[m], &x1, &y1);
@@ -352,7 +352,7 @@ static void a_sun_is_exactly_where_its_tip_is(void **unused) {
 /* Returns the distance of the pointer from the circle of a handle. */
 static double off_circle(view_handle_kind handle) {
     const view_mark *mark = find_mark(handle);
-    double nearest = INFINITY;
+    double nearest = HUGE_VAL;
     for (int i = 0; i < mark->count; i++)
         nearest = fmin(nearest,
                        hypot((double)mark->at[i][0] - state.x, (double)mark->at[i][1] - state.y));
@@ -430,12 +430,12 @@ static void ctrl_gives_multiples(void **unused) {
     at(x + 33, y + 12);
     let_go();
     assert_true(is_multiple(1000.04 + (double)light->position.x, step) &&
-                is_multiple(light->position.y, step));
+                is_multiple((double)light->position.y, step));
     CHECK_NEAR(before.z, light->position.z, 1e-6);
     assert_true(grab(VIEW_HANDLE_SIZE, &x, &y));
     at(x - 33, y);
     let_go();
-    assert_true(is_multiple(light->radius, step) && light->radius > 0);
+    assert_true(is_multiple((double)light->radius, step) && light->radius > 0);
     light = put_light(LMP_LIGHT_SPOT, vec(0, 1, 2));
     assert_true(grab(VIEW_HANDLE_DIRECTION, &x, &y));
     at(x + 70, y - 40);
