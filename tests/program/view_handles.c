@@ -464,6 +464,41 @@ static void steps_suit_the_scene(void **unused) {
     state.world = &world;
 }
 
+/* Wherever a handle is dragged, a file written then can be read again, and one step undoes it. */
+static void any_drag_leaves_a_light_that_files_take(void **unused) {
+    (void)unused;
+    scene_light_error wrong;
+    int grabbed[VIEW_HANDLES] = { 0 };
+    for (int i = 0; i < check_count(600, 20000); i++) {
+        const scene_light *light = &state.now.lights[0];
+        look(i, (lmp_light_kind)(i % SCENE_LIGHT_KIND_COUNT));
+        const scene_light before = *light;
+        view_find_marks(&state, &marks);
+        const view_mark *mark = &marks.of[(int)check_random_between(0, marks.count)];
+        const int point = (int)check_random_between(0, mark->count);
+        press_at((double)mark->at[point][0], (double)mark->at[point][1]);
+        if (state.drag == VIEW_DRAG_HANDLE)
+            grabbed[state.grip.handle]++;
+        for (int step = 0; step < 8 && state.drag == VIEW_DRAG_HANDLE; step++) {
+            hold_ctrl(step % 3 == 0);
+            at(check_random_between(-300, 940), check_random_between(-300, 780));
+            if (!scene_light_check(light, &wrong))
+                fail_msg("%s%s, by its %s", scene_light_kinds[light->emitter.kind].name, wrong.text,
+                         view_handle_names[state.grip.handle]);
+        }
+        const bool drags = state.drag == VIEW_DRAG_HANDLE;
+        let_go();
+        if (drags && memcmp(&before, light, sizeof before) != 0) {
+            key("Ctrl+Z");
+            assert_memory_equal(&before, light, sizeof before);
+        }
+        hold_ctrl(false);
+    }
+    for (int handle = 1; handle < VIEW_HANDLES; handle++)
+        if (grabbed[handle] == 0)
+            fail_msg("the %s was never dragged", view_handle_names[handle]);
+}
+
 /* --- whose drag it is ------------------------------------------------------------------------- */
 
 static void handles_come_before_lights_and_lights_before_surfaces(void **unused) {
@@ -571,6 +606,7 @@ int main(void) {
         TEST(cones_open_to_the_pointer),
         TEST(ctrl_gives_multiples),
         TEST(steps_suit_the_scene),
+        TEST(any_drag_leaves_a_light_that_files_take),
         TEST(handles_come_before_lights_and_lights_before_surfaces),
         TEST(handles_have_the_same_pixels_at_any_distance),
         TEST(hidden_lights_are_told_and_stand_over_a_surface),
