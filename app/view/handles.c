@@ -100,12 +100,12 @@ static float value_of(const lmp_light *light, view_handle_kind handle) {
 /* Changes it. An area keeps its power, as all that is resized does. */
 static void set_value(lmp_light *light, view_handle_kind handle, float value) {
     const lmp_light before = *light;
-    const float by = value / value_of(light, handle);
     if (is_angle(handle)) {
         *member_of(light, handle) = fminf(value, handle == VIEW_HANDLE_INNER ? light->outer : PI);
         light->inner = fminf(light->inner, light->outer);
         return;
     }
+    const float by = value / value_of(light, handle);
     if (handle == VIEW_HANDLE_SIZE) {
         scene_light_resize(light, by);
         return;
