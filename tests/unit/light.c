@@ -253,6 +253,46 @@ static void lights_add_up(void **state) {
 }
 
 /* Channels written one by one have the same bits, and nothing beside them changes. */
+/* Many lights go side by side, each as it does alone: caps of every width, skies, spheres around
+ * the point, spots whose edge is near it or that stand at it. */
+static void many_lights_of_all_kinds_are_their_sum(void **state) {
+    (void)state;
+    enum { MANY = 70, MOST = 12, VALUES = 3 * LMP_SH_COUNT(MOST) };
+    const lmp_vec3 point = { 3, -2, 0.5f };
+    for (int trial = 0; trial < 40; trial++)
+        for (int bands = 1; bands <= MOST; bands += 1 + bands / 6) {
+            lmp_light lights[MANY];
+            double expected[VALUES] = { 0 };
+            float one[VALUES], all[VALUES];
+            const size_t values = 3 * LMP_SH_COUNT(bands);
+            for (int i = 0; i < MANY; i++) {
+                const lmp_vec3 from = check_random_direction();
+                const lmp_light_kind kind =
+                    (lmp_light_kind)((trial + i) % (LMP_LIGHT_HEMISPHERE + 1));
+                const bool is_center = kind == LMP_LIGHT_SPHERE && i % 4 == 0;
+                const float d = is_center ? 0 : (float)check_random_between(0.2, 3);
+                lights[i] =
+                    (lmp_light) { .kind =
+                                      (lmp_light_kind)((trial + i) % (LMP_LIGHT_HEMISPHERE + 1)),
+                                  .position = { point.x + d * from.x, point.y + d * from.y,
+                                                point.z + d * from.z },
+                                  .direction = check_random_direction(),
+                                  .radius = (float)check_random_between(0.01, 1),
+                                  .angle = (float)check_random_between(0, 3.14),
+                                  .inner = 0.4f,
+                                  .outer = (float)check_random_between(0.6, 3),
+                                  .radiance = { (float)check_random_between(0, 2), 1, 0.5f },
+                                  .ground = { 0.3f, 0.1f, (float)check_random_between(0, 1) } };
+                lmp_light_project(bands, &lights[i], 1, point, one);
+                for (size_t k = 0; k < values; k++)
+                    expected[k] += (double)one[k];
+            }
+            lmp_light_project(bands, lights, MANY, point, all);
+            /* 70 roundings, and one of a direction, which changes band l by about l² / 2 of it */
+            CHECK_WITHIN(check_error(values, expected, all), 1e-6 + 5e-8 * bands * bands);
+        }
+}
+
 static void channels_go_where_they_belong(void **state) {
     (void)state;
     enum { STRIDE = COUNT + 7 };
@@ -392,6 +432,7 @@ int main(void) {
         cmocka_unit_test(a_spot_light_with_equal_cones_has_a_hard_edge),
         cmocka_unit_test(a_hemisphere_light_is_sky_and_ground),
         cmocka_unit_test(lights_add_up),
+        cmocka_unit_test(many_lights_of_all_kinds_are_their_sum),
         cmocka_unit_test(channels_go_where_they_belong),
         cmocka_unit_test(a_sphere_has_the_power_its_radiance_says),
         cmocka_unit_test(a_sphere_sends_its_power_through_any_shell),
