@@ -60,6 +60,12 @@ float lmp_sh_dot(int bands, const float *a, const float *b) {
 
 float lmp_sh_reconstruct(int bands, const float *sh, lmp_vec3 direction) {
     assert(lmpi_is_bands(bands) && lmpi_is_unit(direction));
+    if (bands <= LMPI_SINGLE_BANDS) {
+        const lmpi_single *single = lmpi_single_get();
+        float values[LMP_SH_COUNT(LMPI_SINGLE_BANDS)];
+        single->eval[bands](bands, direction, values);
+        return single->dot[bands](bands, values, sh);
+    }
     float q[LMP_BANDS_MAX], sum = 0;
     lmpi_azimuth a = { 1, 0 };
     for (int m = 0; m < bands; m++) {
@@ -78,6 +84,13 @@ float lmp_sh_reconstruct(int bands, const float *sh, lmp_vec3 direction) {
 void lmp_sh_expand_zonal(int bands, const float *zonal, lmp_vec3 axis, float *sh) {
     assert(lmpi_is_bands(bands));
     assert(lmpi_are_apart(zonal, (size_t)bands, sh, LMP_SH_COUNT(bands)));
+    if (bands <= LMPI_SINGLE_BANDS) {
+        lmpi_single_cap cap = { .axis = axis };
+        for (int l = 0; l < bands; l++)
+            cap.factors[l] = zonal[l] / lmpi_table_pole[l];
+        lmpi_single_get()->cap[bands](&cap, sh);
+        return;
+    }
     float weights[LMP_BANDS_MAX];
     for (int l = 0; l < bands; l++)
         weights[l] = zonal[l] / lmpi_table_pole[l];

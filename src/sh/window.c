@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/base/precondition.h"
+#include "src/base/unroll.h"
 
 #include <lampion/sh.h>
 
@@ -99,10 +100,14 @@ void lmp_sh_make_laplacian_window(int bands, float keep, const float *sh, float 
         weights[l] = (float)laplacian_weight(high, l);
 }
 
+LMPI_INLINE void apply(int bands, const float *weights, const float *sh, float *windowed) {
+    LMPI_UNROLL for (int l = 0; l < bands; l++)
+        LMPI_UNROLL for (int k = l * l; k < (l + 1) * (l + 1); k++) windowed[k] =
+            sh[k] * weights[l];
+}
+
 void lmp_sh_apply_window(int bands, const float *weights, const float *sh, float *windowed) {
     assert(lmpi_is_bands(bands));
     assert(lmpi_are_same_or_apart(sh, windowed, LMP_SH_COUNT(bands)));
-    for (int l = 0; l < bands; l++)
-        for (int m = -l; m <= l; m++)
-            windowed[LMP_SH_INDEX(l, m)] = sh[LMP_SH_INDEX(l, m)] * weights[l];
+    LMPI_STRAIGHT_SMALL(bands, apply, weights, sh, windowed)
 }
