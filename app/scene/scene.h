@@ -295,6 +295,15 @@ bool scene_read_lights(const char *path, const double origin[3], size_t room, sc
 bool scene_write_lights(const char *path, const double origin[3], const scene_light *lights,
                         size_t count, base_error *error);
 
+/* Whether a scene's name is that of a glTF file, .gltf or .glb. */
+bool scene_is_gltf(const char *name);
+
+/* Writes a copy of the scene's glTF file with these lights in place of its own; `up` is the axis
+ * that it was loaded with. A copy beside the file shares its buffers and images; a GLB stays one.
+ * `lost` says in one line what glTF cannot: "" is nothing. */
+bool scene_export_gltf(const scene *scene, int up, const scene_light *lights, size_t count,
+                       const char *path, char *lost, size_t lost_size, base_error *error);
+
 /* Adds the lights of a file to the scene's; adds none on failure. */
 bool scene_add_lights_file(scene *scene, const char *path, base_error *error);
 

@@ -213,13 +213,15 @@ enum {
     REQUEST_RESTART,
     REQUEST_FULLSCREEN,
     REQUEST_SAVE,
+    REQUEST_COPY,
     REQUEST_SHARES
 };
 
 static void request(view_state *s, int what) {
     bool *const requests[] = { &s->requests.quit,       &s->requests.shot,   &s->requests.command,
                                &s->requests.record,     &s->requests.reload, &s->requests.restart,
-                               &s->requests.fullscreen, &s->requests.save,   &s->requests.shares };
+                               &s->requests.fullscreen, &s->requests.save,   &s->requests.copy,
+                               &s->requests.shares };
     *requests[what] = true;
 }
 
@@ -260,7 +262,8 @@ const view_key view_keys[] = {
     { "Ctrl+Z", "Ctrl Z  Ctrl Y", "undo, redo lights and materials", view_undo, -1, "Undo" },
     { "Ctrl+Y", NULL, NULL, view_undo, 1, "Redo" },
     { "Ctrl+O", "Ctrl O, drop a file", "scene, lights, material", view_ask_file, 0, "Open" },
-    { "Ctrl+S", "Ctrl S", "save the lights", request, REQUEST_SAVE, "Save the lights" },
+    { "Ctrl+S", "Ctrl S", "the lights as a file", request, REQUEST_SAVE, "Export lights" },
+    { "Ctrl+E", "Ctrl E", "a copy of the glTF with them", request, REQUEST_COPY, "Export scene" },
 
     { NULL, "Compare", NULL, NULL, 0, NULL },
     { "v", "V", "split; drag the divider", split, GPU_SPLIT_DIVIDED, "Split" },

@@ -24,12 +24,14 @@ typedef struct words {
 
 /* Whether the second word is the last one, with blanks in it. */
 static bool takes_the_rest(const char *what, const char *next) {
-    return strcmp(what, "drop") == 0 || strcmp(what, "shot") == 0 || strcmp(what, "type") == 0 ||
-           strcmp(what, "set") == 0 || next[0] == '"';
+    static const char *const names[] = { "drop", "shot", "export", "type", "set" };
+    bool takes = next[0] == '"';
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        takes = takes || strcmp(what, names[i]) == 0;
+    return takes;
 }
 
-/* Splits a line at blanks; the last word of drop, shot, type and set, and one in quotes, may
- * contain some. */
+/* Splits a line at blanks; the last word of some, and one in quotes, may contain some. */
 static void split_words(char *line, words *w) {
     *w = (words) { .count = 0 };
     for (size_t length = strlen(line); length > 0 && strchr(" \t", line[length - 1]); length--)
@@ -119,6 +121,11 @@ static bool read_event(const words *w, view_script_line *line) {
     if (strcmp(what, "shot") == 0) {
         line->kind = VIEW_SCRIPT_SHOT;
         return image_format_of(line->text) == IMAGE_PNG;
+    }
+    if (strcmp(what, "export") == 0) {
+        const char *dot = strrchr(line->text, '.');
+        line->kind = VIEW_SCRIPT_EXPORT;
+        return (dot && strcmp(dot, ".json") == 0) || scene_is_gltf(line->text);
     }
     e->kind = what[0] == 'k'   ? VIEW_KEY
               : what[0] == 'd' ? VIEW_DROP

@@ -5,13 +5,17 @@
 
 #include "app/view/state.h"
 
-typedef enum view_script_kind { VIEW_SCRIPT_EVENT, VIEW_SCRIPT_SHOT } view_script_kind;
+typedef enum view_script_kind {
+    VIEW_SCRIPT_EVENT,
+    VIEW_SCRIPT_SHOT,
+    VIEW_SCRIPT_EXPORT
+} view_script_kind;
 
 typedef struct view_script_line {
     double seconds;
     view_script_kind kind;
     view_event event;
-    char text[VIEW_PATH_SIZE]; /* the text that event.text points to, or the file of a shot */
+    char text[VIEW_PATH_SIZE]; /* the text that event.text points to, or the file to write */
 } view_script_line;
 
 typedef struct view_script {

@@ -39,16 +39,47 @@ static bool find_name(const char *beginning, const char *ending, char *name, siz
     return false;
 }
 
-void view_save_lights(viewer *v) {
+bool view_export(viewer *v, const char *path, base_error *error) {
     const view_settings *now = &v->state.now;
-    char name[64];
+    char lost[VIEW_MESSAGE_SIZE] = "";
+    if (!scene_is_gltf(path)) {
+        if (!scene_write_lights(path, now->origin, now->lights, now->light_count, error))
+            return false;
+        view_say(&v->state, "%s: --lights reads it, or drop it here", path);
+        return true;
+    }
+    if (!scene_export_gltf(v->world, now->up, now->lights, now->light_count, path, lost,
+                           sizeof lost, error))
+        return false;
+    if (lost[0])
+        base_note(path, "%s", lost);
+    view_say(&v->state, "%s has the lights%s%s", path, lost[0] ? ", " : "", lost);
+    return true;
+}
+
+/* Exports under a numbered name. */
+static void export_next(viewer *v, const char *beginning, const char *ending) {
+    char path[VIEW_PATH_SIZE + 16];
     base_error error;
-    if (!find_name("lampion-lights", ".json", name, sizeof name))
+    if (!find_name(beginning, ending, path, sizeof path))
         view_say(&v->state, "There are too many files of lights here");
-    else if (scene_write_lights(name, now->origin, now->lights, now->light_count, &error))
-        view_say(&v->state, "%s: --lights reads it, or drop it here", name);
-    else
+    else if (!view_export(v, path, &error))
         view_say(&v->state, "%s", error.text);
+}
+
+void view_export_lights(viewer *v) {
+    export_next(v, "lampion-lights", ".json");
+}
+
+void view_export_scene(viewer *v) {
+    const char *from = v->state.now.scene, *dot = strrchr(from, '.');
+    char beginning[VIEW_PATH_SIZE];
+    if (scene_is_gltf(from)) {
+        snprintf(beginning, sizeof beginning, "%.*s-lit", (int)(dot - from), from);
+        export_next(v, beginning, dot);
+    } else {
+        view_say(&v->state, "Only glTF carries lights: export them as lampion-lights-0001.json");
+    }
 }
 
 bool view_take_shot(viewer *v, const char *path, base_error *error) {

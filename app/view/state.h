@@ -45,7 +45,8 @@ typedef struct view_event {
 /* What the window is asked to do: the state machine sets requests, and whoever fulfills one clears
  * it. */
 typedef struct view_requests {
-    bool quit, shot, command, record, reload, restart, fullscreen, expose, redraw, save, shares;
+    bool quit, shot, command, record, reload, restart, fullscreen, expose, redraw, save, copy,
+        shares;
 } view_requests;
 
 typedef enum view_drag {

@@ -75,7 +75,9 @@ static bool fulfill_requests(viewer *v, base_error *error) {
     if (requests.expose && !view_expose(v, error))
         view_say(&v->state, "%s", error->text);
     if (requests.save)
-        view_save_lights(v);
+        view_export_lights(v);
+    if (requests.copy)
+        view_export_scene(v);
     if (requests.shares)
         find_shares(v);
     if (requests.record)
@@ -97,7 +99,10 @@ static bool play_script(viewer *v, base_error *error) {
         v->script_next++;
         if (line->kind == VIEW_SCRIPT_SHOT) /* later events belong to the next frame */
             return view_take_shot(v, line->text, error);
-        if (line->event.kind == VIEW_SIZE)
+        if (line->kind == VIEW_SCRIPT_EXPORT) {
+            if (!view_export(v, line->text, error))
+                return false;
+        } else if (line->event.kind == VIEW_SIZE)
             view_window_resize(v->window, (int)line->event.x, (int)line->event.y);
         else
             view_take_event(v, &line->event);

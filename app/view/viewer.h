@@ -96,8 +96,13 @@ bool view_copy_command(viewer *v, base_error *error);
 
 void view_toggle_recording(viewer *v);
 
-/* Saves the lights at rest to a file that --lights reads. */
-void view_save_lights(viewer *v);
+/* Writes the lights at rest to a file that --lights reads, .json, or to a copy of the scene's glTF
+ * file, .gltf or .glb. */
+bool view_export(viewer *v, const char *path, base_error *error);
+
+/* Does so under the next free name, of lights here or of a copy beside the scene. */
+void view_export_lights(viewer *v);
+void view_export_scene(viewer *v);
 
 /* Records a frame; without --record a failure only ends the recording. */
 bool view_record_frame(viewer *v, base_error *error);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # view.sh PART: lampion view in a window. session: by real input, checked step by step, by its state and images;
-# script, shadows, bounces, edit, aim: what scripts do; sidebar, handles: what the mouse does alone; refusals.
+# script, shadows, bounces, edit, export, aim: what scripts do; sidebar, handles: what the mouse does alone; refusals.
 set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
@@ -238,6 +238,59 @@ test_bounces() {
     cmp bounced.png option.png || fail "the key and --bounces differ"
     cmp bounced.png repeated.png || fail "an image with bounces is repeated otherwise"
     "$PROGRAM" compare direct.png again.png --fail-above max=0 >differ.txt || fail "bounces do not go"
+}
+
+test_export() {
+    # a copy of the scene has the lights of now, and so have the file of lights and what the actions write
+    own_scene scene.gltf
+    cat >many.json <<'LIGHTS'
+{ "lights": [
+  { "kind": "point", "position": [-2, 1, 0], "intensity": [3, 2, 1] },
+  { "position": [2, 1.2, 0.5], "radius": 0.3, "radiance": [5, 9, 4] },
+  { "kind": "spot", "position": [0, 2, 1], "direction": [0.3, -1, -0.2], "inner": 0.2, "outer": 0.7, "intensity": [2, 6, 9] },
+  { "kind": "directional", "direction": [1, 2, 1], "irradiance": [0.3, 0.2, 0.1] },
+  { "kind": "rectangle", "position": [0, 1.5, -1], "half_width": [0.5, 0.1, 0], "half_height": [-0.1, 0.5, 0.4], "two_sided": true,
+    "radiance": [3, 1, 1] },
+  { "kind": "disk", "position": [1, 0.8, 2], "direction": [0, -1, 0.4], "radius": 0.4, "radiance": [1, 2, 6] } ] }
+LIGHTS
+    printf '%s\n' '0 set lights/0/position -1, 1, 1' '0.1 export now.json' '0.2 export copy.gltf' '0.3 press "Export lights"' \
+        '0.4 press "Export scene"' '0.6 key Ctrl+Q' >export.txt
+    "$PROGRAM" view scene.gltf --lights many.json --size 64x36 --samples 1 --script export.txt --state state.json 2>view.err ||
+        fail "exporting ends in $?: $(cat view.err)"
+    says 'scene-lit-0001.gltf' || fail "the copy is not named: $(value message)"
+    cmp copy.gltf scene-lit-0001.gltf || fail "the word and the action differ"
+    cmp now.json lampion-lights-0001.json || fail "the word and the action give other lights"
+    seen="--eye 0,3,6 --target 0,0.5,0 --exposure 1 --size 96x54 --samples 1 --environment none"
+    "$PROGRAM" render scene.gltf --lights now.json $seen -q -o now.exr || fail "rendering the lights: $?"
+    "$PROGRAM" render copy.gltf $seen -q -o copy.exr || fail "rendering the copy: $?"
+    "$PROGRAM" compare copy.exr now.exr --fail-above max=1e-5 || fail "the copy is lit otherwise"
+    python=$(python_with json)
+    [ -z "$python" ] || "$python" - <<'PYTHON' || fail "another reader finds other lights"
+import json
+copy = json.load(open("copy.gltf"))
+lights = copy["extensions"]["KHR_lights_punctual"]["lights"]
+assert [light["type"] for light in lights] == ["point", "point", "spot", "directional"], lights
+assert [light["intensity"] for light in lights][::2] == [3, 9] and lights[1]["extras"]["radius"] > 0.29, lights
+areas = copy["extensions"]["EXT_lights_area"]["lights"]
+assert [light["type"] for light in areas] == ["rect", "rect", "disk"], areas
+assert set(copy["extensionsUsed"]) == set(copy["extensions"])
+group = copy["nodes"][copy["scenes"][0]["nodes"][-1]]
+assert [copy["nodes"][i]["matrix"][12:15] for i in group["children"]][0] == [-1, 1, 1], group
+PYTHON
+    # only glTF carries lights, and says what it cannot
+    printf '0 press "Export scene"\n0.2 key Ctrl+Q\n' >scene.txt
+    "$PROGRAM" view room.obj --lights lights.json --size 64x36 --script scene.txt --state state.json || fail "no glTF: $?"
+    says 'Only glTF' || fail "nothing is said of other formats: $(value message)"
+    printf '0 set lights/0/kind tube\n0.1 export tube.gltf\n0.3 key Ctrl+Q\n' >tube.txt
+    "$PROGRAM" view scene.gltf --lights lights.json --size 64x36 --script tube.txt --state state.json 2>view.err || fail "a tube: $?"
+    says 'without 1 tube' && grep -q 'tube.gltf: without 1 tube' view.err || fail "a tube is lost: $(value message)"
+    for name in none/x.gltf scene.gltf; do
+        printf '0 export %s\n' $name >bad.txt
+        if "$PROGRAM" view scene.gltf --size 64x36 --script bad.txt 2>view.err; then fail "$name is written"; fi
+        grep -q "$name" view.err || fail "$name: $(cat view.err)"
+    done
+    printf '0 export x.png\n' >bad.txt
+    if "$PROGRAM" view scene.gltf --size 64x36 --script bad.txt 2>view.err; then fail "lights are exported to an image"; fi
 }
 
 test_aim() {
