@@ -213,12 +213,6 @@ static void drop(view_state *s, const char *file) {
         view_say(s, "%s", error.text);
 }
 
-static void choose_aim(view_state *s, const char *name) {
-    const int aim = view_find_aim(name);
-    if (aim >= 0 && s->aim != (view_aim)aim)
-        view_choose_aim(s, aim);
-}
-
 /* Lets a dragged light stay as a key, an action or a value has changed it; a handle lets go. */
 static void keep_dragged(view_state *s) {
     if (s->drag == VIEW_DRAG_AIM && s->selected >= 0)
@@ -272,12 +266,6 @@ static void take_event(view_state *s, const view_event *event) {
         break;
     case VIEW_DAMAGE:
         s->requests.redraw = true;
-        break;
-    case VIEW_AIM:
-        choose_aim(s, event->text);
-        break;
-    case VIEW_SHARES:
-        s->requests.shares = true;
         break;
     case VIEW_SIZE:
         resize(s, (int)event->x, (int)event->y);

@@ -6,6 +6,7 @@
 #include "app/view/aim.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,7 +92,8 @@ static bool read_event(const words *w, view_script_line *line) {
         return numbers_at(w, 2, 1, SCROLL_MAX);
     }
     if (strcmp(what, "shares") == 0) {
-        e->kind = VIEW_SHARES;
+        e->kind = VIEW_ACT;
+        strcpy(line->text, "Shares");
         return w->count == 2;
     }
     if (w->count < 3 || w->count > 4)
@@ -115,8 +117,10 @@ static bool read_event(const words *w, view_script_line *line) {
         return false;
     strcpy(line->text, w->text[2]);
     if (strcmp(what, "aim") == 0) {
-        e->kind = VIEW_AIM;
-        return view_find_aim(line->text) >= 0;
+        e->kind = VIEW_SET;
+        const bool known = view_find_aim(line->text) >= 0;
+        snprintf(line->text, sizeof line->text, "view/aim %s", w->text[2]);
+        return known;
     }
     if (strcmp(what, "shot") == 0) {
         line->kind = VIEW_SCRIPT_SHOT;

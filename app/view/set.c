@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* set.c - sets one value, by the names that it has in the state's JSON. */
 #include "app/base/file_json.h"
+#include "app/view/aim.h"
 #include "app/view/lights.h"
 #include "app/view/state.h"
 
@@ -88,7 +89,7 @@ static bool set_view(view_state *s, const char *name, const char *typed, base_er
     char *end;
     const double number = strtod(typed, &end);
     const bool is_number = end > typed && *end == '\0';
-    int path;
+    int path, aim;
     if (strcmp(name, "selected") == 0 && is_number && number == floor(number) && number >= -1 &&
         number < (double)s->now.light_count)
         s->selected = (int)number;
@@ -102,7 +103,10 @@ static bool set_view(view_state *s, const char *name, const char *typed, base_er
     else if (strcmp(name, "path") == 0 &&
              read_choice(typed, (const char *const *)s->path_names, &path))
         s->path = path;
-    else
+    else if (strcmp(name, "aim") == 0 && (aim = view_find_aim(typed)) >= 0) {
+        if (s->aim != (view_aim)aim) /* the same again would end it */
+            view_choose_aim(s, aim);
+    } else
         return base_fail(error, name, "cannot be \"%s\"", typed);
     return true;
 }

@@ -24,8 +24,6 @@ typedef enum view_event_kind {
     VIEW_ACT,     /* an action, by its name */
     VIEW_SET,     /* a value, by a line for view_set_by_line */
     VIEW_DAMAGE,  /* the window must be drawn again */
-    VIEW_AIM,     /* one of view_aim_names is chosen */
-    VIEW_SHARES,  /* asks which lights make what is under the pointer */
     VIEW_SIZE     /* the image has x times y pixels; none: it is not visible */
 } view_event_kind;
 
@@ -37,7 +35,7 @@ typedef struct view_event {
     view_button button;
     bool shift;       /* held, with a button or a held key */
     char letter;      /* of VIEW_HOLD and VIEW_FREE */
-    const char *text; /* the key, the action, the file, the aim, the value, or what is typed */
+    const char *text; /* the key, the action, the file, the value, or what is typed */
 } view_event;
 
 /* --- the state -------------------------------------------------------------------------------- */

@@ -326,10 +326,10 @@ static void elsewhere_the_camera_moves(void **unused) {
     assert_non_null(strstr(state.message, "select a light"));
     key("3");
     assert_int_equal(state.aim, VIEW_AIM_OFF);
-    view_handle(&state, &(view_event) { .kind = VIEW_AIM, .text = "illumination" });
-    view_handle(&state, &(view_event) { .kind = VIEW_AIM, .text = "illumination" });
+    view_handle(&state, &(view_event) { .kind = VIEW_SET, .text = "view/aim illumination" });
+    view_handle(&state, &(view_event) { .kind = VIEW_SET, .text = "view/aim illumination" });
     assert_int_equal(state.aim, VIEW_AIM_ILLUMINATION);
-    view_handle(&state, &(view_event) { .kind = VIEW_AIM, .text = "off" });
+    view_handle(&state, &(view_event) { .kind = VIEW_SET, .text = "view/aim off" });
     assert_int_equal(state.aim, VIEW_AIM_OFF);
     assert_memory_equal(&before, &state.now.lights[0], sizeof before);
 }
