@@ -45,21 +45,32 @@ static bool is_own_directory(const char *path) {
            access(path, R_OK | X_OK) == 0;
 }
 
-bool file_cache_directory(char *path, size_t size) {
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    int length;
-    if (cache && cache[0] == '/')
-        length = snprintf(path, size, "%s", cache);
-    else if (home && home[0] == '/')
-        length = snprintf(path, size, "%s/.cache", home);
-    else
+/* Finds the program's directory within the one that the environment names, or else in the home
+ * directory, and makes it. */
+static bool find_directory(const char *variable, const char *in_home, char *path, size_t size) {
+    const char *given = getenv(variable), *home = getenv("HOME");
+    const bool chosen = given && given[0] == '/';
+    if (!chosen && (!home || home[0] != '/'))
         return false;
+    const int length = snprintf(path, size, "%s%s", chosen ? given : home, chosen ? "" : in_home);
     if (length < 0 || (size_t)length + sizeof "/lampion" > size)
         return false;
-    mkdir(path, 0700);
     strcpy(path + length, "/lampion");
+    char *slash = path + (chosen ? (size_t)length : strlen(home) + 1);
+    for (; (slash = strchr(slash, '/')); *slash++ = '/') {
+        *slash = '\0';
+        mkdir(path, 0700);
+    }
     mkdir(path, 0700);
     return is_own_directory(path);
+}
+
+bool file_cache_directory(char *path, size_t size) {
+    return find_directory("XDG_CACHE_HOME", "/.cache", path, size);
+}
+
+bool file_state_directory(char *path, size_t size) {
+    return find_directory("XDG_STATE_HOME", "/.local/state", path, size);
 }
 
 static int open_directory(void) {

@@ -17,6 +17,10 @@
  * on without a cache). */
 bool file_cache_directory(char *path, size_t size);
 
+/* Finds the directory of what the program remembers, $XDG_STATE_HOME/lampion or
+ * ~/.local/state/lampion, in the same way. */
+bool file_state_directory(char *path, size_t size);
+
 /* Maps the bytes of an entry, from the start of a page, without a copy; returns NULL where there is
  * no valid entry. The entry counts as used now. Release the bytes with file_cache_unmap. Entries
  * are replaced or removed, never changed, so mapped bytes stay as they are. */

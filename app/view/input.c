@@ -3,6 +3,7 @@
 #include "app/view/ui.h"
 #include "app/view/viewer.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Lays the interface out where the pointer is now, if it moved since. */
@@ -77,6 +78,9 @@ void view_take_event(void *to, const view_event *event) {
     const bool covered =
         v->state.drag == VIEW_DRAG_SIDEBAR || (v->state.drag == VIEW_DRAG_NONE && ui_covered());
     const bool typed = event->kind == VIEW_KEY || event->kind == VIEW_TYPE;
+    if (isinf(v->state.message_until) &&
+        (typed || event->kind == VIEW_HOLD || event->kind == VIEW_PRESS))
+        v->state.message_until = 0;
     if (event->kind == VIEW_MOVE)
         move(v, event);
     else if (event->kind == VIEW_PRESS)

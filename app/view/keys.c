@@ -214,6 +214,7 @@ enum {
     REQUEST_FULLSCREEN,
     REQUEST_SAVE,
     REQUEST_COPY,
+    REQUEST_RESUME,
     REQUEST_SHARES
 };
 
@@ -221,11 +222,18 @@ static void request(view_state *s, int what) {
     bool *const requests[] = { &s->requests.quit,       &s->requests.shot,   &s->requests.command,
                                &s->requests.record,     &s->requests.reload, &s->requests.restart,
                                &s->requests.fullscreen, &s->requests.save,   &s->requests.copy,
-                               &s->requests.shares };
+                               &s->requests.resume,     &s->requests.shares };
     *requests[what] = true;
 }
 
 const view_key view_keys[] = {
+    { NULL, "Files", NULL, NULL, 0, NULL },
+    { "Ctrl+O", "Ctrl O, drop a file", "scene, lights, material", view_ask_file, 0, "Open" },
+    { "Ctrl+S", "Ctrl S", "the lights as a file", request, REQUEST_SAVE, "Export lights" },
+    { "Ctrl+E", "Ctrl E", "a copy of the glTF with them", request, REQUEST_COPY, "Export scene" },
+    { "Ctrl+R", "Ctrl R", "camera, lights as you left them", request, REQUEST_RESUME,
+      "Last session" },
+
     { NULL, "Camera", NULL, NULL, 0, NULL },
     { NULL, "left drag", "go around, inside look around", NULL, 0, NULL },
     { NULL, "Shift + left, middle drag", "pan", NULL, 0, NULL },
@@ -254,16 +262,13 @@ const view_key view_keys[] = {
     { "U", NULL, NULL, change_tone, -1, "Previous tone curve" },
     { "z", "Z", "shadows on, off", toggle_shadows, 0, "Shadows" },
     { "Z", "Shift Z", "light that bounces on, off", toggle_bounces, 8, "Bounces" },
+
+    { NULL, "Materials", NULL, NULL, 0, NULL },
     { "t", "T", "material of the object pointed at", change_material, 1, "Next material" },
     { "T", NULL, NULL, change_material, -1, "Previous material" },
-
-    { NULL, "Materials, files", NULL, NULL, 0, NULL },
     { "Enter", "Enter", "values of the light, of materials", view_toggle_panel, 0, "Values" },
     { "Ctrl+Z", "Ctrl Z  Ctrl Y", "undo, redo lights and materials", view_undo, -1, "Undo" },
     { "Ctrl+Y", NULL, NULL, view_undo, 1, "Redo" },
-    { "Ctrl+O", "Ctrl O, drop a file", "scene, lights, material", view_ask_file, 0, "Open" },
-    { "Ctrl+S", "Ctrl S", "the lights as a file", request, REQUEST_SAVE, "Export lights" },
-    { "Ctrl+E", "Ctrl E", "a copy of the glTF with them", request, REQUEST_COPY, "Export scene" },
 
     { NULL, "Compare", NULL, NULL, 0, NULL },
     { "v", "V", "split; drag the divider", split, GPU_SPLIT_DIVIDED, "Split" },

@@ -101,6 +101,7 @@ static void begin_other(viewer *v) {
     v->another = true;
     v->seen = v->candidate = view_version_of(v->state.now.scene);
     view_show_title(v);
+    view_begin_session(v);
     if (!view_choose_environment(v, &error))
         view_say(&v->state, "%s", error.text);
 }
@@ -111,6 +112,8 @@ void view_reload(viewer *v) {
     const bool other = v->state.other[0];
     const char *name = other ? v->state.other : v->state.now.scene;
     base_error error;
+    if (other)
+        view_keep_session(v);
     scene_options load = o->load;
     load.variant = other ? NULL : view_variant(&v->state.now);
     scene *world = view_load_scene(name, &load, other || v->another ? &own : &o->lights, &error);

@@ -85,7 +85,26 @@ static bool is_found(const view_sidebar *bar, const char *name) {
     return strcasestr(name, bar->find) != NULL;
 }
 
-/* --- camera, materials, time ------------------------------------------------------------------ */
+/* --- files, camera, materials, time
+ * ------------------------------------------------------------------ */
+
+/* Lists the scenes of earlier runs, by their names before their folders. */
+static void put_files(viewer *v) {
+    const view_recent *recent = &v->recent;
+    char item[2 * VIEW_PATH_SIZE];
+    if (recent->count == 0)
+        return;
+    ui_text("recent scenes");
+    ui_list_begin("recent", recent->count);
+    for (int i = 0; i < recent->count; i++) {
+        const char *path = recent->scenes[i], *slash = strrchr(path, '/');
+        snprintf(item, sizeof item, "%s%s%.*s##recent", slash ? slash + 1 : path, slash ? "  " : "",
+                 slash ? (int)(slash - path) : 0, path);
+        if (ui_item(item, i == 0) && i > 0)
+            view_handle(&v->state, &(view_event) { .kind = VIEW_DROP, .text = path });
+    }
+    ui_list_end();
+}
 
 static void put_camera(viewer *v) {
     view_state *s = &v->state;
@@ -327,14 +346,13 @@ static void put_window(viewer *v) {
 static const struct {
     const char *heading;
     void (*put)(viewer *v);
-} contents[] = {
-    { "Camera", put_camera },   { "Shading", put_shading }, { "Materials, files", put_materials },
-    { "Compare", put_compare }, { "Lights", put_lights },   { "Time", put_time },
-    { "Window", put_window }
-};
+} contents[] = { { "Files", put_files },     { "Camera", put_camera },
+                 { "Shading", put_shading }, { "Materials", put_materials },
+                 { "Compare", put_compare }, { "Lights", put_lights },
+                 { "Time", put_time },       { "Window", put_window } };
 
 static void put_section(viewer *v, const view_key *heading) {
-    if (!ui_section(heading->shown))
+    if (!ui_section(heading->shown, strcmp(heading->shown, "Lights") == 0))
         return;
     for (size_t i = 0; i < sizeof contents / sizeof *contents; i++)
         if (strcmp(contents[i].heading, heading->shown) == 0)
@@ -345,8 +363,7 @@ static void put_section(viewer *v, const view_key *heading) {
 double view_draw_sidebar(viewer *v) {
     view_state *s = &v->state;
     const int width = s->now.width;
-    const bool offered = !v->options->script && !v->options->record;
-    if (!s->sidebar && !offered)
+    if (!s->sidebar && !view_is_interactive(v))
         return width;
     const double wide = fmin(VIEW_SIDEBAR_WIDTH * v->state.scale, 0.5 * width);
     bool open = s->sidebar;

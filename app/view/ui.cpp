@@ -318,9 +318,9 @@ void ui_sidebar_end() {
     ImGui::End();
 }
 
-bool ui_section(const char *title) {
+bool ui_section(const char *title, bool open) {
     spell(title);
-    const bool seen = ImGui::CollapsingHeader(title);
+    const bool seen = ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     mark(title);
     return seen;
 }

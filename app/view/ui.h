@@ -52,8 +52,8 @@ bool ui_takes_text(void);
 bool ui_sidebar_begin(const char *title, double width, bool *open);
 void ui_sidebar_end(void);
 
-/* Adds a heading that folds; returns whether what is below it is seen. */
-bool ui_section(const char *title);
+/* Adds a heading that folds, at first open or not; returns whether what is below it is seen. */
+bool ui_section(const char *title, bool open);
 
 /* Adds a button, beside others if there is room; returns whether it was pressed. */
 bool ui_button(const char *name, const char *tip);

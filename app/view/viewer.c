@@ -70,6 +70,8 @@ static bool fulfill_requests(viewer *v, base_error *error) {
         return false;
     if (requests.reload)
         view_reload(v);
+    if (requests.resume)
+        view_resume_session(v);
     if (requests.fullscreen)
         view_window_toggle_fullscreen(v->window);
     if (requests.expose && !view_expose(v, error))
@@ -191,12 +193,11 @@ static bool open_viewer(viewer *v, base_error *error) {
     if (!open_graphics(v, error))
         return false;
     v->state.sidebar =
-        !o->script && !o->record && v->state.now.width >= 3 * VIEW_SIDEBAR_WIDTH * v->state.scale;
+        view_is_interactive(v) && v->state.now.width >= 3 * VIEW_SIDEBAR_WIDTH * v->state.scale;
     if (o->expose && !view_expose(v, error))
         return false;
     v->state.now.exposure *= o->expose ? o->settings.exposure : 1;
-    if (!o->script && !o->record)
-        view_say(&v->state, "F1 or ? shows all keys");
+    view_begin_session(v);
     return true;
 }
 
@@ -206,6 +207,8 @@ bool view_run(const view_options *options, base_error *error) {
         return base_fail(error, NULL, "out of memory");
     v->options = options;
     const bool ok = open_viewer(v, error) && loop(v, error);
+    if (ok)
+        view_keep_session(v);
     view_baking_stop(&v->baking);
     close_graphics(v);
     view_window_end();

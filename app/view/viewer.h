@@ -31,6 +31,13 @@ typedef struct view_sidebar {
     float ms[VIEW_FRAMES_TOLD]; /* that the last frames took, oldest first */
 } view_sidebar;
 
+/* The scenes of this and earlier runs, the latest first. */
+enum { VIEW_RECENT_MAX = 8 };
+typedef struct view_recent {
+    char scenes[VIEW_RECENT_MAX][VIEW_PATH_SIZE];
+    int count;
+} view_recent;
+
 typedef struct viewer {
     const view_options *options;
     view_state state;
@@ -56,6 +63,8 @@ typedef struct viewer {
     double laid_at;      /* seconds: when the last frame was described */
     double uncovered;    /* width of the image beside the sidebar, in pixels */
     view_sidebar sidebar;
+    view_recent recent;
+    scene_camera began;      /* the camera that the scene was opened with */
     bool pointed;            /* whether the pointer moved since then */
     version seen, candidate; /* of the scene file */
     bool another; /* whether the scene is not that of the options: it has its own lights */
@@ -64,6 +73,11 @@ typedef struct viewer {
     char record[VIEW_PATH_SIZE];
     bool waiting; /* whether slow work that was announced comes next */
 } viewer;
+
+/* Whether a person is in front of it, rather than a script or a recording. */
+static inline bool view_is_interactive(const viewer *v) {
+    return !v->options->script && !v->options->record;
+}
 
 /* --- reload.c: the scene and its file --------------------------------------------------------- */
 
@@ -85,6 +99,17 @@ bool view_choose_environment(viewer *v, base_error *error);
 
 /* Requests a reload once the scene's file has changed and is no longer being written. */
 void view_watch(viewer *v);
+
+/* --- recent.c: what is remembered ------------------------------------------------------------- */
+
+/* Notes that the scene was opened; the very first time a message says how to begin. */
+void view_begin_session(viewer *v);
+
+/* Remembers how the scene is left, if it is not as it was opened. */
+void view_keep_session(const viewer *v);
+
+/* Restores camera, lights, surroundings and exposure as they were left in an earlier run. */
+void view_resume_session(viewer *v);
 
 /* --- shots.c: files out ----------------------------------------------------------------------- */
 

@@ -9,8 +9,8 @@ tries=600
 ulimit -s 4096
 # leaks are looked for in view_memory.sh, for the driver has some
 export ASAN_OPTIONS=detect_leaks=0
-export LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
-mkdir -p "$XDG_CACHE_HOME"
+export LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache" XDG_STATE_HOME="$WORK/state"
+mkdir -p "$XDG_CACHE_HOME" "$XDG_STATE_HOME"
 part=$1
 
 # Without a display one line must say what to do instead.
@@ -392,9 +392,10 @@ test_sidebar() {
     }
 
     start
+    says 'F1 shows all keys' || fail "the first run tells no key: $(value message)"
     click_on Lampion # the title of the folded sidebar
     until_true "the sidebar" is value sidebar true
-    click_on Lights
+    is value message '""' || fail "a click does not end what the first run tells"
     click_on "Add light"
     until_true "adding a light by its button" is value selected 2
     click_on "Brighten"
@@ -408,6 +409,7 @@ test_sidebar() {
     stop
 
     start
+    is value message '""' || fail "a later run tells what the first has told"
     xdotool mousemove 160 240 key n plus m
     until_true "another method by its key" is value method '"coefficients"'
     settings_of state.json >by_key.txt

@@ -4,8 +4,8 @@ set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
 tries=900
-export ASAN_OPTIONS=detect_leaks=0 LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
-mkdir -p "$XDG_CACHE_HOME"
+export ASAN_OPTIONS=detect_leaks=0 LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache" XDG_STATE_HOME="$WORK/state"
+mkdir -p "$XDG_CACHE_HOME" "$XDG_STATE_HOME"
 if [ -z "${LAMPION_VIEW_DISPLAY:-}" ]; then
     export LAMPION_VIEW_DISPLAY=1
     exec xvfb-run -a -s "-screen 0 640x480x24" sh tests/program/view_baking.sh

@@ -1,74 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* The viewer's sidebar: every action by its button, its key and its word in scripts. */
 #include "app/view/handles.h"
-#include "app/view/viewer.h"
 #include "tests/program/folder.h"
-#include "tests/program/view.h"
+#include "tests/program/viewer.h"
 
 #include <jansson.h>
 #include <stdlib.h>
 
-enum { WIDTH = 1280, HEIGHT = 3000 }; /* with room for every button at once */
-enum { MIDDLE = (WIDTH - VIEW_SIDEBAR_WIDTH) / 2 };
-
-static viewer v;
-static const view_options options = { .fps = 30 };
-
-/* Opens a viewer of a scene that is open. */
-static void begin(void) {
-    static view_settings drawn;
-    v = (viewer) { .options = &options, .state = state, .drawn = &drawn };
-    v.state.now.width = WIDTH;
-    v.state.now.height = HEIGHT;
-    v.state.now.light_count = 2;
-    for (int i = 0; i < 2; i++)
-        v.state.now.lights[i] = (scene_light) {
-            .emitter = { .position = { (float)i, 3, 0 }, .radius = 0.25f, .radiance = { 4, 2, 1 } }
-        };
-    v.state.numbers[1] = 1;
-    v.state.next_number = 2;
-    v.state.selected = 0;
-    v.state.sidebar = true;
-    v.state.seconds = 1;
-    memcpy(&drawn, &v.state.now, view_settings_size(&v.state.now));
-    view_keep(&v.state);
-    view_lay_out(&v, NULL, false);
-    view_take_event(&v, &(view_event) { .kind = VIEW_MOVE, .x = MIDDLE, .y = HEIGHT / 2 });
-}
-
-/* Opens a viewer without graphics, whose interface is laid out all the same. */
-static int open_viewer(void **unused) {
-    if (open_state(unused) != 0)
-        return -1;
-    assert_true(ui_open(false, NULL, NULL));
-    begin();
-    return 0;
-}
-
-static int close_viewer(void **unused) {
-    ui_close();
-    state = v.state;
-    return close_state(unused);
-}
-
-static void take(view_event event) {
-    view_take_event(&v, &event);
-}
-
-static void click(double x, double y) {
-    take((view_event) { .kind = VIEW_MOVE, .x = x, .y = y });
-    take((view_event) { .kind = VIEW_PRESS, .button = VIEW_LEFT });
-    take((view_event) { .kind = VIEW_RELEASE, .button = VIEW_LEFT });
-    view_lay_out(&v, NULL, false);
-}
-
-static void click_on(const char *name) {
-    double x, y;
-    if (!ui_find(name, &x, &y))
-        fail_msg("%s is not to be seen", name);
-    click(x, y);
-}
-
+#include "app/view/handles.h"
 /* --- the table -------------------------------------------------------------------------------- */
 
 /* What an action leaves: settings, and what the state says of the rest. */
@@ -329,7 +268,6 @@ static void a_drag_of_a_field_is_undone_at_once(void **unused) {
     (void)unused;
     const float before = radius();
     const int moments = v.state.history.count;
-    click_on("Lights");
     drag("radius", 60);
     assert_true(radius() > before);
     assert_int_equal(v.state.history.count, moments + 1);
@@ -347,7 +285,6 @@ static void numbers_are_typed_into_a_field(void **unused) {
     double x, y;
     const method_kind method = v.state.now.shading[0].method;
     const int moments = v.state.history.count;
-    click_on("Lights");
     click_on("radius");
     click_on("radius");
     assert_true(ui_takes_text());
@@ -365,7 +302,7 @@ static void numbers_are_typed_into_a_field(void **unused) {
     assert_int_equal(v.state.now.shading[0].method, method);
     by_key(view_find_action("Next method")); /* keys are the image's again */
     assert_int_not_equal(v.state.now.shading[0].method, method);
-    click_on("Materials, files");
+    click_on("Materials");
     click_on("find");
     assert_true(ui_takes_text() && ui_find("find", &x, &y));
     take((view_event) { .kind = VIEW_TYPE, .text = "no such material" });
@@ -381,7 +318,6 @@ static void positions_far_from_0_keep_their_digits(void **unused) {
     (void)unused;
     double x, y;
     v.state.now.origin[0] = 8e6;
-    click_on("Lights");
     assert_true(ui_find("position", &x, &y));
     click(x - 60, y); /* left of the name */
     assert_true(ui_takes_text());
@@ -400,7 +336,6 @@ static void a_picked_color_is_as_bright_as_before(void **unused) {
     double x, y;
     const lmp_light *light = &v.state.now.lights[0].emitter;
     const lmp_rgb before = light->radiance;
-    click_on("Lights");
     click_on("##tint of radiance");
     assert_true(ui_find("##tint of radiance", &x, &y));
     for (int row = 0; row < 12; row++) { /* somewhere below are the wheel and the triangle */
@@ -422,7 +357,6 @@ static void every_member_of_a_light_is_a_field(void **unused) {
     (void)unused;
     char line[64];
     double x, y;
-    click_on("Lights");
     for (int kind = 0; kind < SCENE_LIGHT_KIND_COUNT; kind++) {
         snprintf(line, sizeof line, "lights/0/kind %s", scene_light_kinds[kind].name);
         set(line);
@@ -466,7 +400,7 @@ static void the_last_of_many_lights_is_selected_in_the_list(void **unused) {
     for (size_t i = 0; i < SCENE_LIGHTS_MAX; i++)
         many[i].emitter = (lmp_light) { .radius = 1, .radiance = { 1, 1, 1 } };
     view_put_lights(&v.state, many, SCENE_LIGHTS_MAX);
-    click_on("Lights");
+    view_lay_out(&v, NULL, false);
     assert_true(ui_find("0 sphere##light", &x, &y) && !ui_find("20 sphere##light", &x, &y));
     take((view_event) { .kind = VIEW_MOVE, .x = x, .y = y });
     take((view_event) { .kind = VIEW_SCROLL, .y = -1e6 });
@@ -559,9 +493,6 @@ static void the_title_folds_the_sidebar(void **unused) {
     view_lay_out(&v, NULL, false);
     assert_true(v.state.sidebar && ui_find("Camera", &x, &y));
 }
-
-#undef TEST
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_viewer, close_viewer)
 
 int main(void) {
     const struct CMUnitTest tests[] = {

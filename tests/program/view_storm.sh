@@ -8,9 +8,9 @@ set -eu
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 0; }
 tries=3000
 ulimit -s 4096 # as in a container that grants less: the viewer's settings alone are 5 MB
-export LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
+export LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache" XDG_STATE_HOME="$WORK/state"
 export ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=ignore_noninstrumented_modules=1
-mkdir -p "$XDG_CACHE_HOME"
+mkdir -p "$XDG_CACHE_HOME" "$XDG_STATE_HOME"
 if [ -z "${LAMPION_VIEW_DISPLAY:-}" ]; then
     export LAMPION_VIEW_DISPLAY=1
     exec xvfb-run -a -s "-screen 0 640x480x24" sh tests/program/view_storm.sh
