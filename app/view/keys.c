@@ -3,6 +3,7 @@
 #include "app/scene/vector.h"
 #include "app/view/aim.h"
 #include "app/view/lights.h"
+#include "app/view/nodes.h"
 #include "app/view/panel.h"
 
 #include <math.h>
@@ -200,6 +201,8 @@ static void step_back(view_state *s, int unused) {
         s->help = false;
     else if (s->selected >= 0)
         s->selected = -1;
+    else if (s->node >= 0)
+        s->node = -1;
     else
         view_say(s, "Ctrl+Q closes the window");
 }
@@ -233,6 +236,13 @@ const view_key view_keys[] = {
     { "Ctrl+E", "Ctrl E", "a copy of the glTF with them", request, REQUEST_COPY, "Export scene" },
     { "Ctrl+R", "Ctrl R", "camera, lights as you left them", request, REQUEST_RESUME,
       "Last session" },
+
+    { NULL, "Scene", NULL, NULL, 0, NULL },
+    { "Ctrl+T", "Ctrl T", "select the node pointed at", view_pick_node, 0, "Pick" },
+    { "Ctrl+F", "Ctrl F", "frame it", view_frame_node, 0, "Frame the node" },
+    { "Ctrl+K", "Ctrl K", "hide it, show it again", view_hide_node, 0, "Hide" },
+    { "Ctrl+I", "Ctrl I", "hide all others", view_isolate_node, 0, "Isolate" },
+    { "Ctrl+U", "Ctrl U", "show all", view_show_nodes, 0, "Show all" },
 
     { NULL, "Camera", NULL, NULL, 0, NULL },
     { NULL, "left drag", "go around, inside look around", NULL, 0, NULL },

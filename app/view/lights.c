@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/lights.h"
+#include "app/view/nodes.h"
 
 #include "app/scene/vector.h"
 
@@ -239,6 +240,8 @@ void view_direct_light(view_state *s, int unused) {
 
 void view_frame_light(view_state *s, int unused) {
     (void)unused;
+    if (s->selected < 0 && s->node >= 0)
+        view_frame_node(s, 0);
     if (s->selected < 0 || !scene_light_has(&s->now.lights[s->selected], SCENE_LIGHT_POSITION))
         return;
     const lmp_light *light = &s->now.lights[s->selected].emitter;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* reload.c - reloads the viewer's scene when its file changes. */
 #include "app/render/renderer/renderer.h"
+#include "app/view/nodes.h"
 #include "app/view/viewer.h"
 
 #include <stdio.h>
@@ -84,16 +85,50 @@ void view_show_title(viewer *v) {
     view_window_title(v->window, title);
 }
 
-/* Replaces the scene that is drawn. */
-static void replace_world(viewer *v, scene *world, view_tree *tree, view_compositor *compositor) {
-    view_compositor_destroy(v->compositor);
-    view_tree_end(v->tree);
-    view_free_scene(v->world);
-    world->name = v->state.now.scene;
-    v->world = world;
-    v->tree = tree;
-    v->compositor = compositor;
+/* What a scene is drawn and picked by. */
+typedef struct drawing {
+    scene *part;
+    view_tree *tree;
+    view_compositor *compositor;
+} drawing;
+
+static void close_drawing(drawing *d) {
+    view_compositor_destroy(d->compositor);
+    view_tree_end(d->tree);
+    view_part_free(d->part);
+}
+
+/* Prepares to draw what the settings, or NULL, leave of a scene. */
+static bool open_drawing(viewer *v, const scene *world, const view_settings *settings, drawing *d,
+                         base_error *error) {
+    *d = (drawing) { .part = view_part_make(world, settings, error) };
+    d->tree = d->part ? view_tree_begin(d->part, error) : NULL;
+    d->compositor = d->tree ? view_compositor_create(&v->context, d->part, d->tree, error) : NULL;
+    if (!d->compositor)
+        close_drawing(d);
+    return d->compositor;
+}
+
+static void replace_drawing(viewer *v, const drawing *d) {
+    close_drawing(&(drawing) { v->part, v->tree, v->compositor });
+    v->part = d->part;
+    v->tree = d->tree;
+    v->compositor = d->compositor;
     v->fresh = true;
+}
+
+void view_change_part(viewer *v) {
+    view_state *s = &v->state;
+    drawing d;
+    base_error error;
+    if (open_drawing(v, v->world, &s->now, &d, &error)) {
+        replace_drawing(v, &d);
+        s->tree = d.tree;
+    } else {
+        s->now.hidden_count = v->drawn->hidden_count;
+        memcpy(s->now.hidden, v->drawn->hidden, sizeof s->now.hidden);
+        view_say(s, "%s", error.text);
+    }
 }
 
 static void begin_other(viewer *v) {
@@ -117,18 +152,20 @@ void view_reload(viewer *v) {
     scene_options load = o->load;
     load.variant = other ? NULL : view_variant(&v->state.now);
     scene *world = view_load_scene(name, &load, other || v->another ? &own : &o->lights, &error);
-    view_tree *tree = world ? view_tree_begin(world, &error) : NULL;
-    view_compositor *compositor =
-        tree ? view_compositor_create(&v->context, world, tree, &error) : NULL;
-    if (!compositor || !view_state_replace_scene(&v->state, world, tree, &error)) {
-        view_compositor_destroy(compositor);
-        view_tree_end(tree);
+    drawing d = { .part = NULL };
+    if (!world || !open_drawing(v, world, other ? NULL : &v->state.now, &d, &error) ||
+        !view_state_replace_scene(&v->state, world, d.tree, &error)) {
+        if (d.compositor)
+            close_drawing(&d);
         view_free_scene(world);
         v->state.other[0] = '\0';
         view_say(&v->state, "%s", error.text);
         return;
     }
-    replace_world(v, world, tree, compositor);
+    replace_drawing(v, &d);
+    view_free_scene(v->world);
+    v->world = world;
+    world->name = v->part->name = v->state.now.scene;
     if (other)
         begin_other(v);
     drop_lost_materials(&v->state);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/renderer/renderer.h"
 #include "app/view/compositor.h"
+#include "app/view/nodes.h"
 #include "app/view/view.h"
 
 /* Opens OpenGL if a side requires it; otherwise *context stays zero, and the CPU draws. */
@@ -12,7 +13,7 @@ static bool open_context(const view_settings *settings, const char *device, gpu_
 }
 
 bool view_render(view_settings *settings, const char *device, const char *path, base_error *error) {
-    scene world;
+    scene world, *part = NULL;
     gpu_context context = { .display = NULL };
     view_compositor *compositor = NULL;
     view_statistics statistics;
@@ -22,13 +23,15 @@ bool view_render(view_settings *settings, const char *device, const char *path, 
     if (!image_check_path(path, error) || !scene_load(settings->scene, &load, &world, error))
         return false;
     view_settings_rebase(settings, world.origin);
-    const bool ok = open_context(settings, device, &context, error) &&
-                    (compositor = view_compositor_create(context.display ? &context : NULL, &world,
+    const bool ok = (part = view_part_make(&world, settings, error)) &&
+                    open_context(settings, device, &context, error) &&
+                    (compositor = view_compositor_create(context.display ? &context : NULL, part,
                                                          NULL, error)) &&
                     view_compositor_draw(compositor, settings, &statistics, error) &&
                     view_compositor_write(compositor, settings, path, error);
     view_compositor_destroy(compositor);
     gpu_context_destroy(&context);
+    view_part_free(part);
     scene_free(&world);
     return ok;
 }

@@ -93,6 +93,9 @@ static bool set_view(view_state *s, const char *name, const char *typed, base_er
     if (strcmp(name, "selected") == 0 && is_number && number == floor(number) && number >= -1 &&
         number < (double)s->now.light_count)
         s->selected = (int)number;
+    else if (strcmp(name, "node") == 0 && is_number && number == floor(number) && number >= -1 &&
+             number < (double)s->world->instance_count)
+        s->node = (long)number;
     else if (strcmp(name, "seconds") == 0 && is_number && number >= 0 && number <= 1e6)
         s->seconds = number;
     else if (strcmp(name, "playing") == 0 && (typed[0] == 't' || typed[0] == 'f'))

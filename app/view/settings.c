@@ -91,6 +91,14 @@ static json_t *environment_to_json(const view_settings *s) {
                      file_json_float(s->environment_strength));
 }
 
+static json_t *hidden_to_json(const view_settings *s) {
+    json_t *ranges = json_array();
+    for (int i = 0; i < s->hidden_count; i++)
+        ranges = file_json_append(ranges, json_pack("[I, I]", (json_int_t)s->hidden[i].first,
+                                                    (json_int_t)s->hidden[i].last));
+    return ranges;
+}
+
 json_t *view_settings_to_json(const view_settings *s) {
     json_t *materials = json_array(), *lights = json_array();
     for (int i = 0; i < s->material_count; i++)
@@ -125,6 +133,8 @@ json_t *view_settings_to_json(const view_settings *s) {
         json_pack("[o, o]", shading_to_json(&s->shading[0]), shading_to_json(&s->shading[1])));
     root = file_json_with(root, "split", json_string(view_split_names[s->split]));
     root = file_json_with(root, "divider", file_json_float(s->divider));
+    if (s->hidden_count > 0)
+        root = file_json_with(root, "hidden", hidden_to_json(s));
     root = file_json_with(root, "materials", materials);
     return file_json_with(root, "lights", lights);
 }
@@ -290,6 +300,23 @@ static bool read_materials(const json_t *root, view_settings *s) {
     return true;
 }
 
+/* Reads which nodes are hidden: none if that is absent. */
+static bool read_hidden(const json_t *root, view_settings *s) {
+    json_t *array = json_object_get(root, "hidden"), *item;
+    double least = 0, range[2];
+    size_t i;
+    if (array && (!json_is_array(array) || json_array_size(array) > VIEW_HIDDEN_MAX))
+        return false;
+    json_array_foreach (array, i, item) {
+        if (!file_json_numbers(item, 2, least, UINT32_MAX - 1, range) || range[1] < range[0] ||
+            range[0] != floor(range[0]) || range[1] != floor(range[1]))
+            return false;
+        s->hidden[s->hidden_count++] = (view_range) { (uint32_t)range[0], (uint32_t)range[1] };
+        least = range[1] + 2;
+    }
+    return true;
+}
+
 static bool read_path(const json_t *object, const char *member, char name[VIEW_PATH_SIZE]) {
     const json_t *item = json_object_get(object, member);
     if (!json_is_string(item) || strlen(json_string_value(item)) >= VIEW_PATH_SIZE ||
@@ -334,6 +361,7 @@ bool view_settings_from_json(const json_t *root, const char *subject, view_setti
                         : !read_both_shadings(root, s->shading)                    ? "looks"
                         : !read_choice(root, "split", view_split_names, &split)    ? "split"
                         : !read_float(root, "divider", 0, 1, &s->divider)          ? "divider"
+                        : !read_hidden(root, s)                                    ? "hidden"
                         : !read_materials(root, s)                                 ? "materials"
                         : !read_lights(root, s)                                    ? "lights"
                                                                                    : NULL;

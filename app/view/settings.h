@@ -21,6 +21,12 @@ typedef struct view_shading {
     lmp_window window;
 } view_shading;
 
+/* Instances of the scene, by their numbers. */
+enum { VIEW_HIDDEN_MAX = 256 };
+typedef struct view_range {
+    uint32_t first, last;
+} view_range;
+
 typedef struct view_settings {
     char scene[VIEW_PATH_SIZE];
     int up, leaves;                /* as in scene_options */
@@ -40,6 +46,8 @@ typedef struct view_settings {
     view_shading shading[2]; /* the second is for a split image */
     gpu_split split;
     float divider; /* as a fraction of the width */
+    int hidden_count;
+    view_range hidden[VIEW_HIDDEN_MAX]; /* what is not shown: ascending, apart (nodes.h) */
     int material_count;
     char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE]; /* NAME=MATERIAL */
     size_t light_count;

@@ -4,6 +4,7 @@
 #include "app/scene/vector.h"
 #include "app/scene/world.h"
 #include "app/view/lights.h"
+#include "app/view/nodes.h"
 #include "app/view/ui.h"
 #include "app/view/viewer.h"
 
@@ -80,11 +81,6 @@ static void put_choice(view_state *s, const char *name, const char *path,
         set(s, path, choices[chosen]);
 }
 
-/* Whether a name has what is looked for in it, whatever the case of its letters. */
-static bool is_found(const view_sidebar *bar, const char *name) {
-    return strcasestr(name, bar->find) != NULL;
-}
-
 /* --- files, camera, materials, time
  * ------------------------------------------------------------------ */
 
@@ -102,6 +98,24 @@ static void put_files(viewer *v) {
                  slash ? (int)(slash - path) : 0, path);
         if (ui_item(item, i == 0) && i > 0)
             view_handle(&v->state, &(view_event) { .kind = VIEW_DROP, .text = path });
+    }
+    ui_list_end();
+}
+
+static void put_scene(viewer *v) {
+    view_state *s = &v->state;
+    char *find = v->sidebar.find_node, item[SCENE_NAME_SIZE + 48];
+    const long count = (long)s->world->instance_count;
+    ui_line("find##node", find, sizeof v->sidebar.find_node, true);
+    ui_list_begin("nodes", 8);
+    for (long i = 0; i < count; i++) {
+        const char *name = s->world->meshes[s->world->instances[i].mesh].name;
+        if (!strcasestr(name, find) || !ui_sees_item())
+            continue;
+        snprintf(item, sizeof item, "%ld %s%s##node", i, name,
+                 view_node_is_hidden(&s->now, (size_t)i) ? ", hidden" : "");
+        if (ui_item(item, i == s->node))
+            s->node = i == s->node ? -1 : i;
     }
     ui_list_end();
 }
@@ -136,7 +150,7 @@ static void put_materials(viewer *v) {
     ui_list_begin("materials", count < 6 ? count : 6);
     for (int i = 0; i < count; i++) {
         const char *name = s->world->materials[i].name;
-        if (!is_found(bar, name) || !ui_sees_item())
+        if (!strcasestr(name, bar->find) || !ui_sees_item())
             continue;
         snprintf(item, sizeof item, "%s##%d", name[0] ? name : "(no name)", i);
         if (ui_item(item, i == bar->material))
@@ -346,10 +360,11 @@ static void put_window(viewer *v) {
 static const struct {
     const char *heading;
     void (*put)(viewer *v);
-} contents[] = { { "Files", put_files },     { "Camera", put_camera },
-                 { "Shading", put_shading }, { "Materials", put_materials },
-                 { "Compare", put_compare }, { "Lights", put_lights },
-                 { "Time", put_time },       { "Window", put_window } };
+} contents[] = {
+    { "Files", put_files },     { "Scene", put_scene },         { "Camera", put_camera },
+    { "Shading", put_shading }, { "Materials", put_materials }, { "Compare", put_compare },
+    { "Lights", put_lights },   { "Time", put_time },           { "Window", put_window },
+};
 
 static void put_section(viewer *v, const view_key *heading) {
     if (!ui_section(heading->shown, strcmp(heading->shown, "Lights") == 0))

@@ -80,6 +80,7 @@ bool view_state_open(const scene *world, view_tree *tree, const view_settings *s
     s->scale = 1;
     s->playing = animate != NULL;
     s->x = s->y = -1;
+    s->node = -1;
     s->walking = scene_is_inside(world);
     take_lights(s);
     if (open_paths(s, animate, error))
@@ -99,7 +100,8 @@ static void begin_other(view_state *s) {
     strcpy(s->now.scene, s->other);
     s->other[0] = s->now.variant[0] = '\0';
     memset(s->now.materials, 0, sizeof s->now.materials);
-    s->now.material_count = 0;
+    s->now.material_count = s->now.hidden_count = 0;
+    memset(s->now.hidden, 0, sizeof s->now.hidden);
     s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
     s->now.camera.near = s->now.camera.far = 0; /* it may fly past the file's planes */
     s->camera = 0;
@@ -159,6 +161,7 @@ bool view_state_replace_scene(view_state *s, const scene *world, view_tree *tree
         }
     }
     s->tree = tree;
+    s->node = -1;
     for (int i = 0; i < before.count; i++)
         animation_close(before.paths[i]);
     follow_origin(s);

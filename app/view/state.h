@@ -44,7 +44,7 @@ typedef struct view_event {
  * it. */
 typedef struct view_requests {
     bool quit, shot, command, record, reload, restart, fullscreen, expose, redraw, save, copy,
-        resume, shares;
+        resume, nodes, shares;
 } view_requests;
 
 typedef enum view_drag {
@@ -121,7 +121,7 @@ enum { VIEW_PATHS_MAX = 4, VIEW_MESSAGE_SIZE = 256 };
 typedef struct view_state {
     view_settings now; /* lights at rest, without animation */
     const scene *world;
-    view_tree *tree;                  /* of the scene */
+    view_tree *tree;                  /* of what is not hidden of it */
     animation *paths[VIEW_PATHS_MAX]; /* owned */
     const char *path_names[VIEW_PATHS_MAX];
     int path_count, path;
@@ -132,6 +132,7 @@ typedef struct view_state {
     bool lights_edited;
     view_history history;
     int selected; /* a light, or -1 */
+    long node;    /* the selected instance of the scene, or -1 */
     view_drag drag;
     lmp_vec3 grab;         /* from the dragged light's animated position to its resting position */
     float grab_depth;      /* of the dragged light's center */

@@ -95,7 +95,7 @@ static lmp_vec3 facing(lmp_vec3 v, lmp_vec3 side) {
 }
 
 view_hit view_pick_surface(const view_ray *ray, view_tree *tree) {
-    view_hit picked = { -1, INFINITY, { 0, 1, 0 }, { 0, 1, 0 } };
+    view_hit picked = { -1, -1, INFINITY, { 0, 1, 0 }, { 0, 1, 0 } };
     const trace_bvh *bvh = view_tree_wait(tree);
     const trace_hit hit = bvh ? trace(ray, bvh, tree->scene) : trace_miss();
     if (hit.instance == TRACE_NOTHING)
@@ -110,6 +110,7 @@ view_hit view_pick_surface(const view_ray *ray, view_tree *tree) {
     for (int i = 0; i < 3; i++)
         smooth = vec_add(smooth, vec_scale(vec_load(corners[i].normal), (float)weights[i]));
     picked.mesh = (int)tree->scene->instances[hit.instance].mesh;
+    picked.instance = (long)hit.instance;
     picked.distance = hit.distance;
     picked.normal = facing(vec_normalize(normal, back), back);
     picked.smooth = facing(vec_normalize(smooth, picked.normal), picked.normal);

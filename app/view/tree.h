@@ -20,9 +20,10 @@ bool view_tree_is_built(view_tree *tree);
 /* Returns the tree once it is built; NULL if memory ran out. */
 const trace_bvh *view_tree_wait(view_tree *tree);
 
-/* The nearest surface that a ray meets and the image shows: its mesh, or -1. */
+/* The nearest surface that a ray meets and the image shows: its mesh and instance, or -1. */
 typedef struct view_hit {
     int mesh;
+    long instance;
     float distance;
     lmp_vec3 normal; /* unit, of the triangle, on the side the ray comes from */
     lmp_vec3 smooth; /* unit, interpolated between its corners, on the same side; without its map */

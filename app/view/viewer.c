@@ -3,6 +3,7 @@
 #include "app/view/view.h"
 
 #include "app/base/error.h"
+#include "app/view/nodes.h"
 #include "app/view/ui.h"
 #include "app/view/viewer.h"
 
@@ -23,7 +24,7 @@ static bool open_graphics(viewer *v, base_error *error) {
     view_show_title(v);
     v->state.scale = view_window_scale(v->window);
     return gpu_context_adopt(&v->context, error) &&
-           (v->compositor = view_compositor_create(&v->context, v->world, v->tree, error)) &&
+           (v->compositor = view_compositor_create(&v->context, v->part, v->tree, error)) &&
            (ui_open(true, view_window_copy, view_window_paste) ||
             base_fail(error, NULL, "the functions of libGL cannot be loaded"));
 }
@@ -70,6 +71,8 @@ static bool fulfill_requests(viewer *v, base_error *error) {
         return false;
     if (requests.reload)
         view_reload(v);
+    if (requests.nodes)
+        view_change_part(v);
     if (requests.resume)
         view_resume_session(v);
     if (requests.fullscreen)
@@ -173,7 +176,8 @@ static bool open_viewer(viewer *v, base_error *error) {
     if (o->camera_wanted && !scene_place_camera(v->world, &o->camera, size, &first->camera, error))
         return false;
     first->camera.near = first->camera.far = 0; /* it may fly past the file's planes */
-    v->tree = view_tree_begin(v->world, error);
+    v->part = view_part_make(v->world, first, error);
+    v->tree = v->part ? view_tree_begin(v->part, error) : NULL;
     if (!v->tree)
         return false;
     if (!view_state_open(v->world, v->tree, first, o->animate, &v->state, error))
@@ -215,6 +219,7 @@ bool view_run(const view_options *options, base_error *error) {
     view_state_close(&v->state);
     view_script_free(&v->script);
     view_tree_end(v->tree);
+    view_part_free(v->part);
     view_free_scene(v->world);
     free(v->shown);
     free(v->drawn);

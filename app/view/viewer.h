@@ -26,9 +26,9 @@ typedef struct view_told {
 /* What the sidebar remembers. */
 enum { VIEW_FRAMES_TOLD = 120 };
 typedef struct view_sidebar {
-    char find[64];              /* in the lists */
-    int material;               /* of the scene, the chosen one */
-    float ms[VIEW_FRAMES_TOLD]; /* that the last frames took, oldest first */
+    char find[64], find_node[64]; /* in the lists */
+    int material;                 /* of the scene, the chosen one */
+    float ms[VIEW_FRAMES_TOLD];   /* that the last frames took, oldest first */
 } view_sidebar;
 
 /* The scenes of this and earlier runs, the latest first. */
@@ -43,8 +43,8 @@ typedef struct viewer {
     view_state state;
     view_script script;
     size_t script_next;
-    scene *world;
-    view_tree *tree; /* of the scene */
+    scene *world, *part; /* the scene, and what is not hidden of it */
+    view_tree *tree;     /* of that part */
     gpu_context context;
     view_window *window;
     view_compositor *compositor;
@@ -90,6 +90,9 @@ void view_free_scene(scene *world);
 
 /* Reloads the scene, or loads another one. If that fails, the current scene stays. */
 void view_reload(viewer *v);
+
+/* Hides what the settings hide, and nothing else. */
+void view_change_part(viewer *v);
 
 /* Sets the window's title from the scene. */
 void view_show_title(viewer *v);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # view.sh PART: lampion view in a window. session: by real input, checked step by step, by its state and images;
-# script, shadows, bounces, edit, export, aim: what scripts do; sidebar, handles: what the mouse does alone; refusals.
+# script, shadows, bounces, edit, export, nodes, aim: what scripts do; sidebar, handles: what the mouse does alone; refusals.
 set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
@@ -293,6 +293,28 @@ PYTHON
     if "$PROGRAM" view scene.gltf --size 64x36 --script bad.txt 2>view.err; then fail "lights are exported to an image"; fi
 }
 
+test_nodes() {
+    # what is hidden is as if it were not there: in the image, in its shadows, and in the image that --from repeats
+    { sed '/usemtl wall/,$d' room.obj; } >floor.obj
+    seen="--lights lights.json --eye 0,3,6 --target 0,1,0 --size 96x54 --samples 1 --shadows --environment none --framing outside"
+    printf '0 shot whole.png\n0.2 set view/node 1\n0.3 press "Hide"\n0.5 shot hidden.png\n0.7 press "Show all"\n0.9 shot again.png\n1 key Ctrl+Q\n' >hide.txt
+    printf '0 set view/node 0\n0.1 press "Isolate"\n0.4 shot alone.png\n0.5 key Ctrl+Q\n' >alone.txt
+    printf '0.2 shot floor.png\n0.4 key Ctrl+Q\n' >floor.txt
+    "$PROGRAM" view room.obj $seen --exposure 1 --script hide.txt --state state.json 2>view.err || fail "hiding ends in $?: $(cat view.err)"
+    "$PROGRAM" view room.obj $seen --exposure 1 --script alone.txt || fail "isolating ends in $?"
+    "$PROGRAM" view floor.obj $seen --exposure 1 --script floor.txt || fail "the floor ends in $?"
+    same() { "$PROGRAM" compare "$1" "$2" --fail-above max=0 >compare.txt || fail "$1 and $2 differ: $(cat compare.txt)"; }
+    same hidden.png floor.png
+    same alone.png floor.png
+    same whole.png again.png
+    cmp -s whole.png hidden.png && fail "nothing is hidden"
+    "$PROGRAM" render --from hidden.png -o repeated.png || fail "rendering what is left: $?"
+    cmp hidden.png repeated.png || fail "an image without a node is repeated otherwise"
+    printf '0 press "Show all"\n0.3 shot shown.png\n0.4 key Ctrl+Q\n' >shown.txt
+    "$PROGRAM" view --from hidden.png --script shown.txt || fail "going on from what is left: $?"
+    same shown.png whole.png
+}
+
 test_aim() {
     # a light is dragged over the floor, by a key and by a word: the same; then one step back
     aim='room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 160x90 --samples 1'
@@ -398,24 +420,25 @@ test_sidebar() {
     is value message '""' || fail "a click does not end what the first run tells"
     click_on "Add light"
     until_true "adding a light by its button" is value selected 2
-    click_on "Brighten"
+    click_on "Copy light"
+    until_true "copying a light by its button" is value selected 3
     click_on Lights # folded again, so that what follows is not moved
     click_on Shading
     click_on "Next method"
     until_true "another method by its button" is value method '"coefficients"'
     xdotool mousemove 320 470 click 1 # a place of the sidebar without anything
-    is value selected 2 || fail "a click on the sidebar reaches the image"
+    is value selected 3 || fail "a click on the sidebar reaches the image"
     settings_of state.json >by_button.txt
     stop
 
     start
     is value message '""' || fail "a later run tells what the first has told"
-    xdotool mousemove 160 240 key n plus m
+    xdotool mousemove 160 240 key n ctrl+d m
     until_true "another method by its key" is value method '"coefficients"'
     settings_of state.json >by_key.txt
     stop
 
-    printf '0 move 160 240\n0.1 press "Add light"\n0.2 press "Brighten"\n0.3 press "Next method"\n0.5 key Ctrl+Q\n' >press.txt
+    printf '0 move 160 240\n0.1 press "Add light"\n0.2 press "Copy light"\n0.3 press "Next method"\n0.5 key Ctrl+Q\n' >press.txt
     "$PROGRAM" view $sized --script press.txt --state state.json || fail "the script ends in $?"
     settings_of state.json >by_script.txt
     # values by their names, and the command that makes the image

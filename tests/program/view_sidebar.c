@@ -7,7 +7,6 @@
 #include <jansson.h>
 #include <stdlib.h>
 
-#include "app/view/handles.h"
 /* --- the table -------------------------------------------------------------------------------- */
 
 /* What an action leaves: settings, and what the state says of the rest. */

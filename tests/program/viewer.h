@@ -17,7 +17,7 @@ static const view_options options = { .fps = 30 };
 /* Opens a viewer of a scene that is open. */
 static void begin(void) {
     static view_settings drawn;
-    v = (viewer) { .options = &options, .state = state, .drawn = &drawn, .scale = 1 };
+    v = (viewer) { .options = &options, .state = state, .drawn = &drawn };
     v.state.now.width = WIDTH;
     v.state.now.height = HEIGHT;
     v.state.now.light_count = 2;

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+/* Nodes of the viewer's scene: found, framed, hidden, and what is left then. */
+#include "app/view/nodes.h"
+#include "tests/program/folder.h"
+#include "tests/program/viewer.h"
+
+#include <jansson.h>
+#include <stdlib.h>
+
+/* Hides and shows what the settings say, as the viewer does between two frames. */
+static scene *part;
+static void apply(void) {
+    base_error error;
+    view_tree *before = v.state.tree;
+    scene *fresh = view_part_make(&world, &v.state.now, &error);
+    assert_non_null(fresh);
+    v.state.tree = view_tree_begin(fresh, &error);
+    assert_non_null(v.state.tree);
+    if (part)
+        view_tree_end(before);
+    view_part_free(part);
+    part = fresh;
+    v.state.requests.nodes = false;
+}
+
+static int close_nodes(void **unused) {
+    if (part) {
+        view_tree_end(v.state.tree);
+        view_part_free(part);
+    }
+    part = NULL;
+    v.state.tree = tree;
+    return close_viewer(unused);
+}
+
+static void act(const char *name) {
+    take((view_event) { .kind = VIEW_ACT, .text = name });
+    if (v.state.requests.nodes)
+        apply();
+}
+
+/* Whatever is hidden and shown one by one, ranges say the same, and are the same read back. */
+static void ranges_say_which_nodes_are_hidden(void **unused) {
+    (void)unused;
+    enum { NODES = 40 };
+    static view_settings copy;
+    bool hidden[NODES] = { false };
+    uint32_t seed = 1;
+    base_error error;
+    scene many = world;
+    many.instance_count = NODES;
+    scene_instance *instances = calloc(NODES, sizeof *instances);
+    many.instances = instances;
+    v.state.world = &many;
+    for (int i = 0; i < 2000; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        v.state.node = (long)(seed >> 16) % NODES;
+        hidden[v.state.node] = !hidden[v.state.node];
+        view_hide_node(&v.state, 0);
+        json_t *root = view_settings_to_json(&v.state.now);
+        assert_true(view_settings_from_json(root, "x", &copy, &error));
+        json_decref(root);
+        scene *left = view_part_make(&many, &copy, &error);
+        size_t count = 0;
+        for (size_t node = 0; node < NODES; node++) {
+            assert_int_equal(view_node_is_hidden(&v.state.now, node), hidden[node]);
+            assert_int_equal(view_node_is_hidden(&copy, node), hidden[node]);
+            count += !hidden[node];
+        }
+        assert_int_equal(left->instance_count, count);
+        view_part_free(left);
+    }
+    v.state.world = &world;
+    free(instances);
+}
+
+static void ranges_that_are_none_are_refused(void **unused) {
+    (void)unused;
+    static const char *const texts[] = { "[[2, 1]]",  "[[1, 2], [3, 4]]", "[[4, 5], [1, 2]]",
+                                         "[1]",       "[[-1, 2]]",        "7",
+                                         "[[1.5, 2]]" };
+    static view_settings copy;
+    base_error error;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        json_t *root = view_settings_to_json(&v.state.now);
+        json_object_set_new(root, "hidden", json_loads(texts[i], JSON_DECODE_ANY, NULL));
+        assert_false(view_settings_from_json(root, "x", &copy, &error));
+        assert_non_null(strstr(error.text, "hidden"));
+        json_decref(root);
+    }
+}
+
+/* What is hidden is not there for the pointer; what is behind it has the number that it had. */
+static void hidden_nodes_are_not_pointed_at(void **unused) {
+    (void)unused;
+    long picked[8];
+    const size_t count = world.instance_count;
+    assert_true(count >= 2 && count < 8);
+    for (size_t i = 0; i < count; i++) {
+        v.state.node = -1;
+        act("Pick");
+        picked[i] = v.state.node;
+        for (size_t k = 0; k < i; k++)
+            assert_int_not_equal(picked[i], picked[k]);
+        if (picked[i] < 0)
+            break;
+        act("Hide");
+        assert_non_null(strstr(v.state.message, "is hidden"));
+    }
+    assert_true(picked[0] >= 0 && picked[1] != picked[0]);
+    v.state.node = picked[0];
+    act("Hide"); /* again: it is shown */
+    v.state.node = -1;
+    act("Pick");
+    assert_int_equal(v.state.node, picked[0]);
+    act("Isolate");
+    assert_int_equal(part->instance_count, 1);
+    assert_int_equal(v.state.now.hidden_count, (picked[0] > 0) + (picked[0] + 1 < (long)count));
+    act("Show all");
+    assert_int_equal(part->instance_count, count);
+}
+
+/* An action without a selected node is for what is pointed at, if anything is. */
+static void actions_are_for_what_is_pointed_at(void **unused) {
+    (void)unused;
+    act("Hide");
+    assert_true(v.state.node < 0 && v.state.now.hidden_count == 1);
+    act("Show all");
+    v.state.now.camera.eye[2] = 1e6f; /* looks past everything */
+    v.state.now.camera.target[2] = 2e6f;
+    for (int i = 0; i < 3; i++) {
+        static const char *const names[] = { "Hide", "Isolate", "Frame the node" };
+        act(names[i]);
+        assert_non_null(strstr(v.state.message, "Select a node"));
+    }
+    assert_int_equal(v.state.now.hidden_count, 0);
+}
+
+static void a_node_is_selected_in_the_list_and_framed(void **unused) {
+    (void)unused;
+    char item[SCENE_NAME_SIZE + 48];
+    double x, y, scale;
+    snprintf(item, sizeof item, "1 %s##node", world.meshes[world.instances[1].mesh].name);
+    click_on("Scene");
+    click_on(item);
+    assert_int_equal(v.state.node, 1);
+    v.state.selected = -1;
+    const scene_camera before = v.state.now.camera;
+    take((view_event) { .kind = VIEW_KEY, .text = "F" }); /* no light is selected */
+    const scene_camera framed = v.state.now.camera;
+    assert_true(memcmp(&before, &framed, sizeof before) != 0);
+    v.state.now.camera = before;
+    act("Frame the node");
+    assert_memory_equal(&framed, &v.state.now.camera, sizeof framed);
+    assert_true(view_project(&framed, WIDTH, HEIGHT,
+                             (lmp_vec3) { framed.target[0], framed.target[1], framed.target[2] },
+                             &x, &y, &scale));
+    CHECK_NEAR(WIDTH / 2, x, 1);
+    take((view_event) { .kind = VIEW_MOVE, .x = MIDDLE, .y = HEIGHT / 2 });
+    act("Hide");
+    view_lay_out(&v, NULL, false);
+    snprintf(item, sizeof item, "1 %s, hidden##node", world.meshes[world.instances[1].mesh].name);
+    assert_true(ui_find(item, &x, &y));
+    click_on("find##node");
+    take((view_event) { .kind = VIEW_TYPE, .text = "no such node" });
+    view_lay_out(&v, NULL, false);
+    assert_false(ui_find(item, &x, &y));
+    take((view_event) { .kind = VIEW_KEY, .text = "Escape" });
+    take((view_event) { .kind = VIEW_KEY, .text = "Escape" });
+    assert_int_equal(v.state.node, -1);
+}
+
+int main(void) {
+#define NODES(test) cmocka_unit_test_setup_teardown(test, open_viewer, close_nodes)
+    const struct CMUnitTest tests[] = {
+        NODES(ranges_say_which_nodes_are_hidden),         NODES(ranges_that_are_none_are_refused),
+        NODES(hidden_nodes_are_not_pointed_at),           NODES(actions_are_for_what_is_pointed_at),
+        NODES(a_node_is_selected_in_the_list_and_framed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
