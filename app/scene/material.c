@@ -4,11 +4,14 @@
 #include "app/base/choice.h"
 #include "app/base/number.h"
 #include "app/scene/material_file.h"
+#include "app/scene/vector.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
+
+#define GGX_ALPHA_LEAST 0.001f
 
 void material_close(material *m) {
     lmp_brdf_destroy(m->brdf);
@@ -109,7 +112,7 @@ static bool open_phong(const char *name, const char *text, material *m, base_err
 }
 
 static bool open_ggx(const char *name, const char *text, material *m, base_error *error) {
-    static const parameter_range alphas = { "ALPHA", 0.001f, 1 };
+    static const parameter_range alphas = { "ALPHA", GGX_ALPHA_LEAST, 1 };
     lmp_ggx ggx = { .f0 = { 0.04f, 0.04f, 0.04f } };
     float alpha[2] = { 0, 0 };
     const int alpha_count = take_numbers(&text, 'x', 2, alpha);
@@ -121,6 +124,27 @@ static bool open_ggx(const char *name, const char *text, material *m, base_error
            color_within(name, "F0", ggx.f0, 1, error) &&
            color_within(name, "DIFFUSE", ggx.diffuse, INFINITY, error) &&
            finish(name, text, lmp_brdf_create_ggx(NULL, &ggx, &m->brdf), error);
+}
+
+/* Makes a GGX of what glTF's metallic-roughness says: alpha is the square of the roughness. */
+static bool open_gltf(const char *name, const char *text, material *m, base_error *error) {
+    static const parameter_range factors = { "ROUGHNESS or METALLIC", 0, 1 };
+    float color[3], factor[2];
+    lmp_rgb base;
+    if (!*text || !take_color(&text, &base) || take_numbers(&text, ',', 1, &factor[0]) != 1 ||
+        take_numbers(&text, ',', 1, &factor[1]) != 1)
+        return base_fail(error, name, "is not gltf:COLOR:ROUGHNESS:METALLIC");
+    if (!within(name, &factors, factor, 2, error) || !color_within(name, "COLOR", base, 1, error))
+        return false;
+    rgb_store(base, color);
+    float f0[3], diffuse[3];
+    for (int k = 0; k < 3; k++) {
+        f0[k] = 0.04f * (1 - factor[1]) + color[k] * factor[1];
+        diffuse[k] = color[k] * (1 - factor[1]);
+    }
+    const float alpha = fmaxf(factor[0] * factor[0], GGX_ALPHA_LEAST);
+    const lmp_ggx ggx = { .alpha_x = alpha, .f0 = rgb_load(f0), .diffuse = rgb_load(diffuse) };
+    return finish(name, text, lmp_brdf_create_ggx(NULL, &ggx, &m->brdf), error);
 }
 
 static bool open_sheen(const char *name, const char *text, material *m, base_error *error) {
@@ -178,7 +202,7 @@ static const struct {
     bool (*open)(const char *name, const char *parameters, material *m, base_error *error);
 } kinds[] = {
     { "lambert", open_lambert }, { "phong", open_phong }, { "ggx", open_ggx },
-    { "sheen", open_sheen },     { "sgd", open_sgd },
+    { "gltf", open_gltf },       { "sheen", open_sheen }, { "sgd", open_sgd },
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 

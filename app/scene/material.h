@@ -6,6 +6,7 @@
  *     lambert:COLOR                        albedo
  *     phong:EXPONENT[:COLOR]               reflectance 1
  *     ggx:ALPHA[xALPHA_Y][:F0[:DIFFUSE]]   F0 0.04, diffuse 0
+ *     gltf:COLOR:ROUGHNESS:METALLIC        GGX by glTF's factors, of a dielectric of F0 0.04
  *     sheen:ROUGHNESS[:COLOR[:DIFFUSE]]    color 1, diffuse 0
  *
  * A COLOR is one number or R,G,B. */
@@ -18,8 +19,8 @@
 #include <lampion/preintegrated.h>
 
 #define MATERIAL_NAMES                                                                             \
-    "FILE.binary, FILE.bsdf, FILE.lmpt, sgd:NAME, lambert:COLOR, phong:EXPONENT, ggx:ALPHA or "    \
-    "sheen:ROUGHNESS"
+    "FILE.binary, FILE.bsdf, FILE.lmpt, sgd:NAME, lambert:COLOR, phong:EXPONENT, ggx:ALPHA, "      \
+    "gltf:COLOR:ROUGHNESS:METALLIC or sheen:ROUGHNESS"
 
 /* A material by name; either brdf or table is not NULL. */
 typedef struct material {

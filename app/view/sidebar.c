@@ -138,6 +138,26 @@ static void put_camera(viewer *v) {
     put_number(s, "fov", "camera/fov", s->now.camera.fov, 3.1f, 0.005f);
 }
 
+/* Puts the factors of glTF for a material, those of the scene unless such factors replace it. */
+static void put_factors(view_state *s, const char *path, const scene_material *m,
+                        const char *given) {
+    float base[3], metallic = m->metallic, roughness = m->roughness, gray;
+    char text[96];
+    memcpy(base, m->base_color, sizeof base);
+    if (given && sscanf(given, "gltf:%f:%f:%f", &gray, &roughness, &metallic) == 3)
+        base[0] = base[1] = base[2] = gray;
+    else if (given)
+        sscanf(given, "gltf:%f,%f,%f:%f:%f", &base[0], &base[1], &base[2], &roughness, &metallic);
+    bool changed = ui_tint("##tint of the base color", base);
+    changed |= ui_numbers("base color", base, 3, 0, 1, 0.005f);
+    changed |= ui_numbers("roughness", &roughness, 1, 0, 1, 0.005f);
+    changed |= ui_numbers("metallic", &metallic, 1, 0, 1, 0.005f);
+    snprintf(text, sizeof text, "gltf:%.4g,%.4g,%.4g:%.4g:%.4g", (double)base[0], (double)base[1],
+             (double)base[2], (double)roughness, (double)metallic);
+    if (changed)
+        set(s, path, text);
+}
+
 static void put_materials(viewer *v) {
     view_state *s = &v->state;
     view_sidebar *bar = &v->sidebar;
@@ -168,6 +188,7 @@ static void put_materials(viewer *v) {
         chosen = strcmp(given, known[i]) == 0 ? i : chosen;
     if (ui_choice("known ones", known, &chosen))
         set(s, path, chosen == 0 ? "" : known[chosen]);
+    put_factors(s, path, &s->world->materials[bar->material], given);
 }
 
 static void put_time(viewer *v) {

@@ -22,6 +22,12 @@ tail -n +2 "$WORK/pairs" | "$PROGRAM" brdf eval lambert:0.5,0.25,1 | diff "$WORK
 "$PROGRAM" brdf eval "$WORK/l.binary" <"$WORK/pairs" | diff "$WORK/expected" - ||
     fail "values through a MERL file"
 
+# glTF's factors are a GGX: a dielectric under its layer, or a metal.
+"$PROGRAM" brdf eval ggx:0.25:0.04:0.4,0.2,0.1 <"$WORK/pairs" >"$WORK/expected"
+"$PROGRAM" brdf eval gltf:0.4,0.2,0.1:0.5:0 <"$WORK/pairs" | diff "$WORK/expected" - || fail "values of a glTF dielectric"
+"$PROGRAM" brdf eval ggx:0.25:0.4,0.2,0.1 <"$WORK/pairs" >"$WORK/expected"
+"$PROGRAM" brdf eval gltf:0.4,0.2,0.1:0.5:1 <"$WORK/pairs" | diff "$WORK/expected" - || fail "values of a glTF metal"
+
 # Tables must be the same from the cache, and hold what was asked for.
 "$PROGRAM" brdf bake phong:20 -o "$WORK/a.lmpt" --bands 6 --views 8
 "$PROGRAM" brdf bake phong:20 -o "$WORK/b.lmpt" --bands 6 --views 8
@@ -47,6 +53,9 @@ refuse 1 'ggx:ALPHA' info ggx:rough
 refuse 1 'ALPHA is 7, out of range (0.001 to 1)' info ggx:7
 refuse 1 'ALPHA is 3, out of range (0.001 to 1)' info ggx:0.2x3
 refuse 1 'F0 is 1.5, out of range (0 to 1)' info ggx:0.2:1,1.5,1
+refuse 1 'gltf:COLOR' info gltf:0.5:0.5
+refuse 1 'METALLIC is 2, out of range (0 to 1)' info gltf:0.5:0.5:2
+refuse 1 'COLOR is 3, out of range (0 to 1)' info gltf:3:0.5:1
 refuse 1 'sheen:ROUGHNESS' info sheen:soft
 refuse 1 'ROUGHNESS is 0, out of range (0.07 to 1)' info sheen:0
 refuse 1 'EXPONENT is -1, out of range (0 to 1e+06)' info phong:-1

@@ -312,6 +312,31 @@ static void numbers_are_typed_into_a_field(void **unused) {
     assert_false(ui_takes_text());
 }
 
+/* The factors of glTF begin as the scene has them; a change of one keeps the others. */
+static void factors_of_a_material_are_dragged(void **unused) {
+    (void)unused;
+    const char *name = world.materials[0].name;
+    float base[3], roughness, metallic;
+    click_on("Materials");
+    drag("roughness", -30);
+    const char *given = view_material_of(&v.state.now, name);
+    assert_non_null(given);
+    assert_int_equal(
+        sscanf(given, "gltf:%f,%f,%f:%f:%f", &base[0], &base[1], &base[2], &roughness, &metallic),
+        5);
+    for (int k = 0; k < 3; k++)
+        CHECK_NEAR(world.materials[0].base_color[k], base[k], 1e-4);
+    CHECK_NEAR(world.materials[0].metallic, metallic, 0);
+    assert_true(roughness < world.materials[0].roughness);
+    char line[SCENE_NAME_SIZE + 64];
+    snprintf(line, sizeof line, "materials/%s gltf:0.25:0.5:0.5", name);
+    set(line);
+    v.clock += 1; /* not a double click */
+    view_lay_out(&v, NULL, false);
+    drag("metallic", 1000);
+    assert_string_equal(view_material_of(&v.state.now, name), "gltf:0.25,0.25,0.25:0.5:1");
+}
+
 /* Far from 0 a position is typed, with more digits than a float has. */
 static void positions_far_from_0_keep_their_digits(void **unused) {
     (void)unused;
@@ -502,6 +527,7 @@ int main(void) {
         TEST(what_cannot_be_set_changes_nothing),
         TEST(a_drag_of_a_field_is_undone_at_once),
         TEST(numbers_are_typed_into_a_field),
+        TEST(factors_of_a_material_are_dragged),
         TEST(positions_far_from_0_keep_their_digits),
         TEST(a_picked_color_is_as_bright_as_before),
         TEST(every_member_of_a_light_is_a_field),
