@@ -138,8 +138,9 @@ static void put_camera(viewer *v) {
     put_number(s, "fov", "camera/fov", s->now.camera.fov, 3.1f, 0.005f);
 }
 
-/* Puts the factors of glTF for a material, those of the scene unless such factors replace it. */
-static void put_factors(view_state *s, const char *path, const scene_material *m,
+/* Puts what a material looks like, and the factors of glTF, those of the scene unless such factors
+ * replace it. */
+static void put_factors(view_state *s, view_ball *ball, const char *path, const scene_material *m,
                         const char *given) {
     float base[3], metallic = m->metallic, roughness = m->roughness, gray;
     char text[96];
@@ -156,6 +157,8 @@ static void put_factors(view_state *s, const char *path, const scene_material *m
              (double)base[2], (double)roughness, (double)metallic);
     if (changed)
         set(s, path, text);
+    if (view_ball_draw(ball, given && !changed ? given : text))
+        ui_image(ball->rgb, VIEW_BALL_SIZE);
 }
 
 static void put_materials(viewer *v) {
@@ -188,7 +191,7 @@ static void put_materials(viewer *v) {
         chosen = strcmp(given, known[i]) == 0 ? i : chosen;
     if (ui_choice("known ones", known, &chosen))
         set(s, path, chosen == 0 ? "" : known[chosen]);
-    put_factors(s, path, &s->world->materials[bar->material], given);
+    put_factors(s, &bar->ball, path, &s->world->materials[bar->material], given);
 }
 
 static void put_time(viewer *v) {

@@ -426,6 +426,22 @@ void ui_list_end() {
     ImGui::EndChild();
 }
 
+void ui_image(const float *rgb, int size) {
+    /* rectangles, which need no texture and are part of the frame's hash */
+    const float pixel = static_cast<float>(self->scale), wide = pixel * static_cast<float>(size);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    ImGui::Dummy(ImVec2(wide, wide));
+    for (int i = 0; i < size * size && ImGui::IsItemVisible(); i++, rgb += 3) {
+        const ImVec2 at(corner.x + pixel * static_cast<float>(i % size),
+                        corner.y + pixel * static_cast<float>(i / size));
+        if (rgb[0] >= 0)
+            list->AddRectFilled(at, ImVec2(at.x + pixel, at.y + pixel),
+                                ImGui::ColorConvertFloat4ToU32(ImVec4(
+                                    to_stored(rgb[0]), to_stored(rgb[1]), to_stored(rgb[2]), 1)));
+    }
+}
+
 void ui_graph(const char *name, const float *numbers, int count, float maximum) {
     ImGui::PlotLines("", numbers, count, 0, name, 0, maximum,
                      ImVec2(ImGui::GetContentRegionAvail().x, 4 * ImGui::GetFontSize()));

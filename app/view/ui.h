@@ -87,6 +87,9 @@ bool ui_sees_item(void);
 bool ui_item(const char *text, bool chosen);
 void ui_list_end(void);
 
+/* Adds an image of size x size pixels, 0 … 1 and linear; pixels below 0 are left out. */
+void ui_image(const float *rgb, int size);
+
 void ui_graph(const char *name, const float *numbers, int count, float maximum);
 
 /* Finds the middle of a heading, button or field of the last frame; returns false if it is not

@@ -5,6 +5,7 @@
 #define LAMPION_VIEW_VIEWER_H
 
 #include "app/view/baking.h"
+#include "app/view/ball.h"
 #include "app/view/compositor.h"
 #include "app/view/script.h"
 #include "app/view/state.h"
@@ -28,6 +29,7 @@ enum { VIEW_FRAMES_TOLD = 120 };
 typedef struct view_sidebar {
     char find[64], find_node[64]; /* in the lists */
     int material;                 /* of the scene, the chosen one */
+    view_ball ball;               /* of it */
     float ms[VIEW_FRAMES_TOLD];   /* that the last frames took, oldest first */
 } view_sidebar;
 
