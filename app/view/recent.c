@@ -94,7 +94,7 @@ void view_begin_session(viewer *v) {
         return;
     if (!read_list(&v->recent)) {
         view_say(&v->state, "F1 shows all keys, F3 shows and hides the panel");
-        v->state.message_until = INFINITY; /* a key or a click */
+        v->state.message_until = HUGE_VAL; /* a key or a click */
     }
     if (full_name_of(v->state.now.scene, name))
         add(&v->recent, name);

@@ -120,6 +120,21 @@ static void hidden_nodes_are_not_pointed_at(void **unused) {
     assert_int_equal(part->instance_count, count);
 }
 
+/* A node has its number while one before it is hidden. */
+static void nodes_keep_their_numbers(void **unused) {
+    (void)unused;
+    for (double y = 0; y < HEIGHT && v.state.node <= 0; y += 20) {
+        take((view_event) { .kind = VIEW_MOVE, .x = MIDDLE, .y = y });
+        act("Pick");
+    }
+    const long picked = v.state.node;
+    assert_true(picked > 0);
+    v.state.node = 0;
+    act("Hide");
+    act("Pick");
+    assert_int_equal(v.state.node, picked);
+}
+
 /* An action without a selected node is for what is pointed at, if anything is. */
 static void actions_are_for_what_is_pointed_at(void **unused) {
     (void)unused;
@@ -173,9 +188,9 @@ static void a_node_is_selected_in_the_list_and_framed(void **unused) {
 int main(void) {
 #define NODES(test) cmocka_unit_test_setup_teardown(test, open_viewer, close_nodes)
     const struct CMUnitTest tests[] = {
-        NODES(ranges_say_which_nodes_are_hidden),         NODES(ranges_that_are_none_are_refused),
-        NODES(hidden_nodes_are_not_pointed_at),           NODES(actions_are_for_what_is_pointed_at),
-        NODES(a_node_is_selected_in_the_list_and_framed),
+        NODES(ranges_say_which_nodes_are_hidden),  NODES(ranges_that_are_none_are_refused),
+        NODES(hidden_nodes_are_not_pointed_at),    NODES(nodes_keep_their_numbers),
+        NODES(actions_are_for_what_is_pointed_at), NODES(a_node_is_selected_in_the_list_and_framed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
