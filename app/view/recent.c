@@ -80,11 +80,12 @@ static void add(view_recent *recent, const char *full_name) {
         recent->count++;
     memmove(recent->scenes[1], recent->scenes[0], (size_t)at * sizeof *recent->scenes);
     strcpy(recent->scenes[0], full_name);
+    if (!path_of("recent.json", path))
+        return;
     json_t *list = json_array();
     for (int i = 0; i < recent->count; i++)
         list = file_json_append(list, file_json_string(recent->scenes[i]));
-    if (path_of("recent.json", path))
-        write_json(path, json_pack("{s:o}", "recent", list));
+    write_json(path, json_pack("{s:o}", "recent", list));
 }
 
 void view_begin_session(viewer *v) {
