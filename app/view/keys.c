@@ -66,7 +66,7 @@ static void split(view_state *s, int kind) {
         s->now.shading[1] = s->now.shading[0];
     if (was_whole && kind == GPU_SPLIT_DIVIDED) {
         s->now.divider = 0.5f;
-        view_say(s, "Split: keys change the side that the pointer is on");
+        view_say(s, "Split: the panel sets each side, keys the side that the pointer is on");
     } else if (s->now.split == GPU_SPLIT_DIFFERENCE) {
         view_say(s, "Difference of both sides, times %d", GPU_DIFFERENCE_GAIN);
     }
@@ -232,6 +232,10 @@ static void request(view_state *s, int what) {
 const view_key view_keys[] = {
     { NULL, "Files", NULL, NULL, 0, NULL },
     { "Ctrl+O", "Ctrl O, drop a file", "scene, lights, material", view_ask_file, 0, "Open" },
+    { "F12", "F12  P", "screenshot with its settings", request, REQUEST_SHOT, "Screenshot" },
+    { "p", NULL, NULL, request, REQUEST_SHOT, NULL },
+    { "Ctrl+C", "Ctrl C", "screenshot, and the command for it", request, REQUEST_COMMAND,
+      "Copy command" },
     { "Ctrl+S", "Ctrl S", "the lights as a file", request, REQUEST_SAVE, "Export lights" },
     { "Ctrl+E", "Ctrl E", "a copy of the glTF with them", request, REQUEST_COPY, "Export scene" },
     { "Ctrl+R", "Ctrl R", "camera, lights as you left them", request, REQUEST_RESUME,
@@ -323,10 +327,6 @@ const view_key view_keys[] = {
     { "b", "B", "back to the start", rewind_time, 0, "To the start" },
 
     { NULL, "Window", NULL, NULL, 0, NULL },
-    { "F12", "F12  P", "screenshot with its settings", request, REQUEST_SHOT, "Screenshot" },
-    { "p", NULL, NULL, request, REQUEST_SHOT, NULL },
-    { "Ctrl+C", "Ctrl C", "screenshot, and the command for it", request, REQUEST_COMMAND,
-      "Copy command" },
     { "r", "R", "record an image sequence", request, REQUEST_RECORD, "Record" },
     { "i", "I", "statistics on, off", toggle, TOGGLE_OVERLAY, "Statistics" },
     { "F5", "F5", "read the scene again", request, REQUEST_RELOAD, "Read again" },
@@ -343,4 +343,16 @@ const view_key view_keys[] = {
 
 bool view_is_heading(const view_key *row) {
     return row->shown && !row->help;
+}
+
+bool view_is_on(const view_state *s, const view_key *row) {
+    const bool flags[] = { s->help, s->overlay, s->handles, s->sidebar };
+    if (row->act == toggle)
+        return flags[row->argument];
+    if (row->act == view_choose_aim)
+        return s->aim == (view_aim)row->argument;
+    if (row->act == split)
+        return s->now.split == (gpu_split)row->argument;
+    return (row->act == toggle_shadows && s->now.shadows) ||
+           (row->act == toggle_bounces && s->now.bounces > 0) || (row->act == play && s->playing);
 }

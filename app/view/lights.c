@@ -10,7 +10,8 @@
 #define SIZE_STEP      1.15f
 #define POWER_STEP     1.25f
 #define HUE_STEP       (1.0f / 12)
-#define NEW_IRRADIANCE 0.4f  /* that a new light gives the scene's bounding sphere */
+#define NEW_POOL       4    /* the radiance under a new light, of a white surface, times exposure */
+#define NEW_IRRADIANCE 0.4f /* that a new light gives the scene's bounding sphere */
 #define COPY_DISTANCE  0.03f /* of the scene's diagonal, at least */
 #define FRAMED_RADIUS  0.1f  /* of the scene's diagonal, at least */
 
@@ -144,21 +145,34 @@ static void append(view_state *s, const scene_light *light) {
     s->drag = VIEW_DRAG_NONE;
 }
 
+/* Makes a new light as bright as suits the surface that it is over, whatever the size of the scene:
+ * a white surface shows NEW_POOL times the brightest color. */
+static void suit_surface(const view_state *s, lmp_vec3 point, lmp_vec3 normal, lmp_light *light) {
+    const lmp_rgb received = lmp_light_irradiance(light, 1, point, normal);
+    const float most = fmaxf(received.r, fmaxf(received.g, received.b));
+    if (most > 0 && s->now.exposure > 0)
+        light->radiance = rgb_scale(light->radiance, NEW_POOL * PI / (most * s->now.exposure));
+}
+
 /* Adds a light of the selected one's kind if that has a position, else a sphere: over the surface
  * under the pointer, or at the distance of the camera's target. */
 void view_add_light(view_state *s, int unused) {
     (void)unused;
     const view_ray ray = pointer_ray(s);
     const view_hit hit = view_pick_surface(&ray, s->tree);
-    scene_light light = { .emitter = new_light(s, scene_light_kind_default) };
-    if (s->selected >= 0 && scene_light_has(&s->now.lights[s->selected], SCENE_LIGHT_POSITION))
-        light.emitter = s->now.lights[s->selected].emitter;
+    const bool like_selected =
+        s->selected >= 0 && scene_light_has(&s->now.lights[s->selected], SCENE_LIGHT_POSITION);
+    scene_light light = { .emitter = like_selected ? s->now.lights[s->selected].emitter
+                                                   : new_light(s, scene_light_kind_default) };
     const float reach = vec_length(vec_sub(vec_load(s->now.camera.target), ray.from));
     const float distance = hit.mesh >= 0 ? hit.distance : reach;
     lmp_vec3 position = vec_add(ray.from, vec_scale(ray.direction, distance));
     if (hit.mesh >= 0)
         position = vec_add(position, vec_scale(hit.normal, 3 * scene_light_extent(&light.emitter)));
     light.emitter.position = position;
+    if (hit.mesh >= 0 && !like_selected)
+        suit_surface(s, vec_add(ray.from, vec_scale(ray.direction, distance)), hit.normal,
+                     &light.emitter);
     append(s, &light);
 }
 

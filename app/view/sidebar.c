@@ -25,7 +25,7 @@ static void put_buttons(view_state *s, const view_key *heading) {
         if (!row->name)
             continue;
         snprintf(tip, sizeof tip, "%s (%s)", told->help, told->shown);
-        if (ui_button(row->name, tip))
+        if (ui_button(row->name, tip, view_is_on(s, row)))
             view_handle(s, &(view_event) { .kind = VIEW_ACT, .text = row->name });
     }
 }

@@ -244,6 +244,9 @@ extern const view_key view_keys[]; /* ended by a row of NULLs */
 /* Whether a row is a heading, which the rows after it belong to. */
 bool view_is_heading(const view_key *row);
 
+/* Whether what the action of a row switches is on. */
+bool view_is_on(const view_state *state, const view_key *row);
+
 /* The materials of the key T: the scene's own, some others, then NULL. */
 extern const char *const view_known_materials[];
 

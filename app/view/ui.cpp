@@ -325,7 +325,7 @@ bool ui_section(const char *title, bool open) {
     return seen;
 }
 
-bool ui_button(const char *name, const char *tip) {
+bool ui_button(const char *name, const char *tip, bool on) {
     const ImGuiStyle &style = ImGui::GetStyle();
     const float needed = ImGui::CalcTextSize(name).x + 2 * style.FramePadding.x;
     const ImGuiWindow *window = ImGui::GetCurrentWindow();
@@ -333,7 +333,11 @@ bool ui_button(const char *name, const char *tip) {
         window->DC.CursorPosPrevLine.x + style.ItemSpacing.x + needed < window->WorkRect.Max.x)
         ImGui::SameLine();
     spell(name);
+    if (on)
+        ImGui::PushStyleColor(ImGuiCol_Button, style.Colors[ImGuiCol_ButtonActive]);
     const bool pressed = ImGui::Button(name);
+    if (on)
+        ImGui::PopStyleColor();
     mark(name);
     self->below = window->DC.CursorPos;
     if (ImGui::IsItemHovered())

@@ -55,8 +55,9 @@ void ui_sidebar_end(void);
 /* Adds a heading that folds, at first open or not; returns whether what is below it is seen. */
 bool ui_section(const char *title, bool open);
 
-/* Adds a button, beside others if there is room; returns whether it was pressed. */
-bool ui_button(const char *name, const char *tip);
+/* Adds a button, beside others if there is room, that shows whether what it switches is on; returns
+ * whether it was pressed. */
+bool ui_button(const char *name, const char *tip, bool on);
 
 /* Adds a line of text. */
 void ui_text(const char *text);
