@@ -82,7 +82,7 @@ float lmp_sh_reconstruct(int bands, const float *sh, lmp_vec3 direction) {
 }
 
 void lmp_sh_expand_zonal(int bands, const float *zonal, lmp_vec3 axis, float *sh) {
-    assert(lmpi_is_bands(bands));
+    assert(lmpi_is_bands(bands) && lmpi_is_unit(axis));
     assert(lmpi_are_apart(zonal, (size_t)bands, sh, LMP_SH_COUNT(bands)));
     if (bands <= LMPI_SINGLE_BANDS) {
         lmpi_single_cap cap = { .axis = axis };
