@@ -9,3 +9,8 @@ bool render_frame_check(const render_frame *frame, base_error *error) {
         return base_fail(error, NULL, "a field's shading without its field");
     return true;
 }
+
+bool render_goes_on(const render_frame *frame, base_error *error) {
+    return !frame->progress || !atomic_load(&frame->progress->cancelled) ||
+           base_fail(error, NULL, "drawing the image was cancelled");
+}

@@ -8,6 +8,8 @@
 #include "app/render/method.h"
 #include "app/scene/scene.h"
 
+#include <stdatomic.h>
+
 struct render_frame;
 typedef struct render_surfaces render_surfaces; /* surfaces.h */
 typedef struct render_rectangle render_rectangle;
@@ -66,6 +68,13 @@ typedef struct render_bounces {
 typedef const lmp_field *(*render_whole_field)(const struct render_frame *frame, bool nodes,
                                                uint64_t *stamp);
 
+/* How far the CPU has drawn an image, and whether it is to give up; any thread may read and write
+ * it. */
+typedef struct render_progress {
+    atomic_bool cancelled;
+    atomic_int done, all; /* tiles, each as often as it is worked on; all is 0 before they begin */
+} render_progress;
+
 typedef struct render_frame {
     int width, height;
     scene_camera camera;
@@ -85,7 +94,26 @@ typedef struct render_frame {
     render_bounces bounces;   /* zero: none */
     bool keep_geometry;     /* keep it, and draw only lights if the last frame had the same view */
     float samples_exposure; /* the exposure that the mean is weighted for; 0: the plain mean */
+    render_progress *progress; /* or NULL; what is cancelled fails, and is begun anew */
 } render_frame;
+
+static inline void render_progress_reset(render_progress *progress, int all) {
+    if (progress) {
+        atomic_store(&progress->done, 0);
+        atomic_store(&progress->all, all);
+    }
+}
+
+/* Counts a tile; returns false if it need not be worked on. */
+static inline bool render_next_tile(const render_frame *frame) {
+    if (!frame->progress)
+        return true;
+    atomic_fetch_add(&frame->progress->done, 1);
+    return !atomic_load(&frame->progress->cancelled);
+}
+
+/* Returns false, with an error, if the frame was cancelled. */
+bool render_goes_on(const render_frame *frame, base_error *error);
 
 /* Checks that the frame has everything its method reads. */
 bool render_frame_check(const render_frame *frame, base_error *error);

@@ -262,7 +262,8 @@ typedef struct tiled_image {
 
 static void shade_visited(const render_rectangle *pixels, render_tile *tile, void *user) {
     const tiled_image *whole = user;
-    shade_tile(whole->job, whole->surfaces, whole->before, pixels, tile, whole->rgba);
+    if (render_next_tile(whole->job->frame))
+        shade_tile(whole->job, whole->surfaces, whole->before, pixels, tile, whole->rgba);
 }
 
 bool shade_tiles(const shade_job *job, const render_surfaces *s, const shade_sample *before,

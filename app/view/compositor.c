@@ -30,10 +30,12 @@ typedef struct side {
 struct view_compositor {
     render_device gpu, cpu; /* cpu once something is drawn there; gpu not without OpenGL */
     const scene *world;
-    view_tree *tree; /* of the scene, or NULL */
-    scene preview;   /* without vertices, the scene itself is drawn instead */
+    view_tree *tree;           /* of the scene, or NULL */
+    view_work *work;           /* or NULL */
+    render_progress *progress; /* of what is being drawn by `work`, else NULL */
+    scene preview;             /* without vertices, the scene itself is drawn instead */
     gpu_screen *screen;
-    view_side shown[2]; /* the images of the sides, if there is no screen */
+    view_side shown[2]; /* the images of the sides, until they are on the screen if there is one */
     side sides[2];
     shadow *shadows;
     transfer *bounces; /* once light bounces */
@@ -44,7 +46,7 @@ struct view_compositor {
 };
 
 view_compositor *view_compositor_create(const gpu_context *context, const scene *world,
-                                        view_tree *tree, base_error *error) {
+                                        view_tree *tree, view_work *work, base_error *error) {
     view_compositor *s = calloc(1, sizeof *s);
     if (!s) {
         base_fail(error, NULL, "out of memory");
@@ -52,6 +54,7 @@ view_compositor *view_compositor_create(const gpu_context *context, const scene 
     }
     s->world = world;
     s->tree = tree;
+    s->work = work;
     if (!context)
         return s;
     render_device_adopt(context, world, &s->gpu);
@@ -272,14 +275,23 @@ bool view_compositor_fits(view_compositor *s, const view_settings *settings) {
     return fit_materials(s, settings, FINE, &ignored);
 }
 
+static int bands_of(const view_settings *settings) {
+    const int first = settings->shading[0].bands, second = settings->shading[1].bands;
+    return first > second ? first : second;
+}
+
+static bool has_environment(const view_compositor *s, const view_settings *settings) {
+    const environment *around = &s->surroundings.around;
+    return view_surroundings_match(&s->surroundings, settings) &&
+           (!environment_shines(around) || around->bands >= bands_of(settings));
+}
+
 /* Opens the environment of the settings, with coefficients for both sides. */
 static bool prepare_environment(view_compositor *s, const view_settings *settings,
                                 base_error *error) {
-    const int first = settings->shading[0].bands, second = settings->shading[1].bands;
-    const int bands = first > second ? first : second;
     environment *around = &s->surroundings.around;
     const bool same = view_surroundings_match(&s->surroundings, settings);
-    if (same && (!environment_shines(around) || around->bands >= bands))
+    if (has_environment(s, settings))
         return true;
     for (int i = 0; i < 2; i++) {
         const side *own = &s->sides[i];
@@ -294,7 +306,7 @@ static bool prepare_environment(view_compositor *s, const view_settings *setting
         return false;
     if (!same && s->bounces)
         transfer_relight(s->bounces);
-    return environment_project(around, bands, error);
+    return environment_project(around, bands_of(settings), error);
 }
 
 /* Returns the device whose tree rays are cast by. */
@@ -359,6 +371,7 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
         .light_count = settings->light_count,
         .samples = divisor > 1 ? 1 : settings->samples,
         .samples_exposure = settings->exposure,
+        .progress = s->progress,
     };
     memcpy(frame->background, settings->background, sizeof frame->background);
     if (is_preintegrated(shading))
@@ -367,14 +380,51 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
            (s->surroundings.around.sun_count == 0 || add_suns(s, frame, error));
 }
 
-/* Stores a side's image for the screen or, without one, for a file. */
-static bool show_side(view_compositor *s, const view_settings *settings, any_renderer *renderer,
-                      const render_frame *frame, int number, base_error *error) {
+/* --- beside the window ------------------------------------------------------------------------ */
+
+static bool has_gpu_renderers(const side *own) {
+    bool some = false;
+    for (int i = 0; i < QUALITIES; i++)
+        some = some || own->renderers[i];
+    return some;
+}
+
+/* Whether these settings are drawn, whatever their environment is found to be, without OpenGL, for
+ * which alone the window's thread is needed. */
+static bool needs_no_window(const view_compositor *s, const view_settings *settings) {
+    const int sides = view_sides(settings);
+    bool without = has_environment(s, settings) ||
+                   !(has_gpu_renderers(&s->sides[0]) || has_gpu_renderers(&s->sides[1]));
+    for (int i = 0; i < sides && without; i++) {
+        const side *own = &s->sides[i];
+        const view_shading *shading = &settings->shading[i];
+        const bool software = s->gpu.gl.software;
+        without = device_of(settings, shading, false, software) == DEVICE_CPU &&
+                  device_of(settings, shading, true, software) == DEVICE_CPU &&
+                  (has_materials(s, own, settings, shading) || !has_gpu_renderers(own));
+    }
+    return without;
+}
+
+/* Runs a task, beside the window if it can. */
+static bool run(view_compositor *s, const view_settings *settings, bool (*task)(void *of),
+                void *of) {
+    view_work *work = s->work && needs_no_window(s, settings) ? s->work : NULL;
+    s->progress = work ? view_work_progress(work) : NULL;
+    const bool ok = view_work_run(work, task, of);
+    s->progress = NULL;
+    return ok;
+}
+
+/* Stores a side's image: on the screen if it is the GPU's. */
+static bool store_side(view_compositor *s, const view_settings *settings, any_renderer *renderer,
+                       const render_frame *frame, int number, base_error *error) {
     const image_display display = { .exposure = settings->exposure, .tone = settings->tone };
     view_side *shown = &s->shown[number];
-    if (s->screen)
-        return renderer_show(renderer, s->screen, number, &display) ||
-               base_fail(error, NULL, "out of memory");
+    if (s->screen && renderer->gl) {
+        gpu_screen_take(s->screen, renderer->gl, number, &display);
+        return true;
+    }
     free(shown->rgb8);
     *shown = (view_side) { frame->width, frame->height,
                            malloc(3 * (size_t)frame->width * (size_t)frame->height) };
@@ -382,14 +432,37 @@ static bool show_side(view_compositor *s, const view_settings *settings, any_ren
                        : base_fail(error, NULL, "out of memory");
 }
 
-/* Draws sample `index`, or all samples if it is -1. */
-static bool draw(view_compositor *s, const view_settings *settings, int divisor, int index,
-                 view_statistics *statistics, base_error *error) {
+/* Shows the images of the CPU, if they are good. */
+static void show_stored(view_compositor *s, bool good) {
+    for (int i = 0; i < 2 && s->screen; i++) {
+        view_side *shown = &s->shown[i];
+        if (good && shown->rgb8)
+            gpu_screen_put(s->screen, i, shown->width, shown->height, shown->rgb8);
+        free(shown->rgb8);
+        shown->rgb8 = NULL;
+    }
+}
+
+/* What to draw: sample `index`, or all samples if it is -1. */
+typedef struct drawing {
+    view_compositor *compositor;
+    const view_settings *settings;
+    int divisor, index;
+    view_statistics statistics;
+    base_error *error;
+} drawing;
+
+static bool draw_sides(void *of) {
+    drawing *d = of;
+    view_compositor *s = d->compositor;
+    const view_settings *settings = d->settings;
+    const int divisor = d->divisor, index = d->index;
+    view_statistics *statistics = &d->statistics;
+    base_error *error = d->error;
     const int sides = view_sides(settings);
     const bool rests = memcmp(&s->camera, &settings->camera, sizeof s->camera) == 0;
     const quality fineness = divisor > 1 ? choose_quality(s, settings, rests) : FINE;
     s->camera = settings->camera;
-    memset(statistics, 0, sizeof *statistics);
     if (!prepare_environment(s, settings, error) || !fit_materials(s, settings, fineness, error))
         return false;
     for (int i = 0; i < sides; i++) {
@@ -408,7 +481,7 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         if (index < 0 ? !renderer_draw(renderer, &frame, &times, error)
                       : !renderer_refine(renderer, &frame, index, &times, error))
             return false;
-        if (!show_side(s, settings, renderer, &frame, i, error))
+        if (!store_side(s, settings, renderer, &frame, i, error))
             return false;
         statistics->times.surfaces += times.surfaces;
         statistics->times.shade += times.shade;
@@ -422,6 +495,16 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
             statistics->device = renderer->cpu ? DEVICE_CPU : DEVICE_GPU;
     }
     return true;
+}
+
+static bool draw(view_compositor *s, const view_settings *settings, int divisor, int index,
+                 view_statistics *statistics, base_error *error) {
+    drawing d = { s, settings, divisor, index, { .width = 0 }, error };
+    const bool ok = run(s, settings, draw_sides, &d);
+    show_stored(s, ok);
+    if (ok)
+        *statistics = d.statistics;
+    return ok;
 }
 
 bool view_compositor_draw(view_compositor *s, const view_settings *settings,
@@ -439,8 +522,19 @@ bool view_compositor_refine(view_compositor *s, const view_settings *settings, i
     return draw(s, settings, 1, index, statistics, error);
 }
 
-bool view_compositor_expose(view_compositor *s, const view_settings *settings, float *exposure,
-                            base_error *error) {
+/* What to expose, and how. */
+typedef struct exposing {
+    view_compositor *compositor;
+    const view_settings *settings;
+    float exposure;
+    base_error *error;
+} exposing;
+
+static bool find_exposure(void *of) {
+    exposing *e = of;
+    view_compositor *s = e->compositor;
+    const view_settings *settings = e->settings;
+    base_error *error = e->error;
     const view_shading *shading = &settings->shading[0];
     render_frame frame;
     any_renderer *renderer;
@@ -453,13 +547,22 @@ bool view_compositor_expose(view_compositor *s, const view_settings *settings, f
         !prepare_field(s, own, shading, &frame, error) ||
         !prepare_bounces(s, settings, &frame.bounces, error))
         return false;
-    *exposure = environment_exposure(&s->surroundings.around, settings->light_count);
-    if (*exposure > 0)
+    e->exposure = environment_exposure(&s->surroundings.around, settings->light_count);
+    if (e->exposure > 0)
         return true;
     if (!renderer_meter(renderer, &frame, &pixels, error))
         return false;
-    *exposure = image_auto_exposure(&pixels);
+    e->exposure = image_auto_exposure(&pixels);
     image_free(&pixels);
+    return true;
+}
+
+bool view_compositor_expose(view_compositor *s, const view_settings *settings, float *exposure,
+                            base_error *error) {
+    exposing e = { s, settings, 0, error };
+    if (!run(s, settings, find_exposure, &e))
+        return false;
+    *exposure = e.exposure;
     return true;
 }
 

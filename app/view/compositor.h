@@ -6,6 +6,7 @@
 #include "app/render/renderer/renderer.h"
 #include "app/view/settings.h"
 #include "app/view/tree.h"
+#include "app/view/work.h"
 
 typedef struct view_compositor view_compositor;
 
@@ -14,9 +15,10 @@ bool view_compositor_does_without(const view_settings *settings);
 
 /* Makes a compositor in the current context, or without OpenGL if context is NULL: then nothing can
  * be shown, and settings that require OpenGL cannot be drawn. The scene and its tree must outlive
- * the compositor; without a tree, NULL, it builds one when it needs it. Returns NULL on failure. */
+ * the compositor; without a tree, NULL, it builds one when it needs it. What needs no OpenGL is
+ * done by `work`, or NULL: while one waits. Returns NULL on failure. */
 view_compositor *view_compositor_create(const gpu_context *context, const scene *world,
-                                        view_tree *tree, base_error *error);
+                                        view_tree *tree, view_work *work, base_error *error);
 void view_compositor_destroy(view_compositor *compositor);
 
 /* Milliseconds of the passes of the last image, of both sides together. */

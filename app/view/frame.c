@@ -8,6 +8,7 @@
 
 #define MOVING_SECONDS 0.060 /* for a frame while things move */
 #define STILL_SECONDS  0.12  /* from the last change until refinement begins */
+#define SLOW_SECONDS   0.25 /* after which progress is told, and what has changed is not finished */
 enum { DIVISOR_MAX = 6 };
 
 bool view_steps_time(const viewer *v) {
@@ -17,7 +18,8 @@ bool view_steps_time(const viewer *v) {
 /* Shows the image, and over it the interface's last frame. */
 static void show(viewer *v) {
     const double began = view_window_clock();
-    view_compositor_show(v->compositor, v->drawn, (float)(2 * v->state.scale));
+    const view_settings *shown = v->good->width > 0 ? v->good : v->shown;
+    view_compositor_show(v->compositor, shown, (float)(2 * v->state.scale));
     ui_draw();
     v->over = v->laid;
     view_window_swap(v->window);
@@ -72,6 +74,20 @@ static void adapt(viewer *v, double seconds) {
     v->slow_seconds = v->divisor == before ? seconds : 0;
 }
 
+/* Lets an image that was cancelled be begun again, coarser if it was slow. Returns false if drawing
+ * failed otherwise. */
+static bool begin_again(viewer *v) {
+    if (!atomic_load(&view_work_progress(v->work)->cancelled))
+        return false;
+    v->cancelled++;
+    v->fresh = true;
+    if (v->sample < 1 && view_window_clock() > v->began + SLOW_SECONDS)
+        v->divisor = v->divisor < DIVISOR_MAX / 2 ? 2 * v->divisor : DIVISOR_MAX;
+    if (v->sample >= 0)
+        v->sample--;
+    return true;
+}
+
 /* Draws changed settings, or refines the image; *worked is false if there was nothing to do. */
 static bool draw(viewer *v, bool *worked, base_error *error) {
     const bool changed = v->fresh || memcmp(v->shown, v->drawn, view_settings_size(v->shown)) != 0;
@@ -82,18 +98,22 @@ static bool draw(viewer *v, bool *worked, base_error *error) {
         memcpy(v->drawn, v->shown, view_settings_size(v->shown));
         v->changed_at = v->clock;
         v->sample = preview ? -1 : 0;
-    } else if (v->sample >= v->drawn->samples - 1 ||
+    } else if (v->held || v->sample >= v->drawn->samples - 1 ||
                (!view_steps_time(v) && v->clock < v->changed_at + STILL_SECONDS)) {
         return true;
     } else {
         v->sample++;
     }
-    v->fresh = false;
-    *worked = true;
-    if (!(preview
-              ? view_compositor_preview(v->compositor, v->drawn, v->divisor, &v->statistics, error)
-              : view_compositor_refine(v->compositor, v->drawn, v->sample, &v->statistics, error)))
-        return false;
+    v->fresh = v->held = false;
+    v->draws = true;
+    v->began = view_window_clock();
+    *worked =
+        preview
+            ? view_compositor_preview(v->compositor, v->drawn, v->divisor, &v->statistics, error)
+            : view_compositor_refine(v->compositor, v->drawn, v->sample, &v->statistics, error);
+    v->draws = false;
+    if (!*worked)
+        return begin_again(v);
     memcpy(v->good, v->drawn, view_settings_size(v->drawn));
     return true;
 }
@@ -107,14 +127,89 @@ static bool is_baking(viewer *v) {
            view_bake(&v->baking, s);
 }
 
+/* --- while something is in work --------------------------------------------------------------- */
+
+void view_pass_time(viewer *v) {
+    const double now = view_window_clock();
+    const double passed = view_steps_time(v) ? 1 / (double)v->options->fps : now - v->passed_at;
+    v->passed_at = now;
+    v->clock += passed;
+    view_advance(&v->state, passed < 0.5 || view_steps_time(v) ? passed : 0.5);
+}
+
+/* Whether the image in work gives way to another one: a finer one at once, a coarse one if it is
+ * slow and can be coarser, for otherwise none would be seen while things move. */
+static bool gives_way(viewer *v) {
+    const bool coarsest = v->good->width == 0 || (v->sample < 0 && v->divisor == DIVISOR_MAX);
+    if (v->sample < 1 && (coarsest || view_window_clock() < v->began + SLOW_SECONDS))
+        return false;
+    view_shown(&v->state, v->shown);
+    if (v->bakes)
+        shade_as_before(v, v->shown);
+    return memcmp(v->shown, v->drawn, view_settings_size(v->shown)) != 0;
+}
+
+/* Whether what is in work must end, for what was requested or because of a change. */
+static bool is_cancelled(viewer *v) {
+    const view_requests *r = &v->state.requests;
+    const view_requests none = { .redraw = r->redraw };
+    return r->quit || (v->shoots && r->cancel) ||
+           (v->draws && (memcmp(r, &none, sizeof none) != 0 || gives_way(v)));
+}
+
+static int percent_of(const render_progress *progress) {
+    const int all = atomic_load(&progress->all), done = atomic_load(&progress->done);
+    return all > 0 ? done * 10 / all * 10 : 0; /* so that the window is not drawn too often */
+}
+
+void view_go_on(void *of) {
+    viewer *v = of;
+    render_progress *progress = view_work_progress(v->work);
+    base_error ignored; /* the next image's state tells of it again */
+    int width, height;
+    if (view_steps_time(v))
+        return;
+    view_window_take_events(v->window, 0);
+    view_pass_time(v);
+    if (view_window_size(v->window, &width, &height))
+        view_handle(&v->state, &(view_event) { .kind = VIEW_SIZE, .x = width, .y = height });
+    if (is_cancelled(v))
+        atomic_store(&progress->cancelled, true);
+    v->percent = view_window_clock() > v->began + SLOW_SECONDS ? percent_of(progress) : 0;
+    view_lay_out(v, v->announcement, false);
+    if (v->laid != v->over || v->state.requests.redraw) {
+        v->state.requests.redraw = false;
+        show(v);
+        if (v->options->state)
+            view_write_state(v, &ignored);
+    }
+    v->percent = 0;
+}
+
+void view_cancel(viewer *v) {
+    if (v->bakes) {
+        view_baking_stop(&v->baking);
+        shade_as_before(v, &v->state.now);
+        view_say(&v->state, "Cancelled");
+    } else if (v->good->width > 0 && !v->held && (v->fresh || v->sample < v->drawn->samples - 1)) {
+        v->fresh = false;
+        v->held = true;
+        view_say(&v->state, "Cancelled: a change draws the image again");
+    } else {
+        view_say(&v->state, "Ctrl+Q closes the window");
+    }
+}
+
+/* --- a frame ---------------------------------------------------------------------------------- */
+
 bool view_draw_frame(viewer *v, bool *worked, base_error *error) {
     const double began = view_window_clock();
     const bool first = v->good->width == 0;
     view_shown(&v->state, v->shown);
     const bool waits = !first && !view_steps_time(v);
     const char *slow = waits ? view_compositor_pending(v->compositor, v->shown) : NULL;
-    const bool bakes = slow && is_baking(v);
-    if (bakes) { /* until it has finished, shade as before */
+    v->bakes = slow && is_baking(v);
+    if (v->bakes) { /* until it has finished, shade as before */
         shade_as_before(v, v->shown);
     } else if (slow && !v->waiting) {
         v->waiting = true;
@@ -124,14 +219,17 @@ bool view_draw_frame(viewer *v, bool *worked, base_error *error) {
         return true;
     }
     v->waiting = false;
-    if (!draw(v, worked, error))
+    v->announcement = slow;
+    const bool drawn = draw(v, worked, error);
+    v->announcement = NULL;
+    if (!drawn)
         return take_back(v, error);
-    const bool moving = *worked && v->changed_at == v->clock && (!slow || bakes) && !first;
+    const bool moving = *worked && v->sample < 1 && (!slow || v->bakes) && !first;
     if (v->state.recording && !view_record_frame(v, error))
         return false;
     const bool redraw = v->state.requests.redraw;
     v->state.requests.redraw = false;
-    view_lay_out(v, bakes ? slow : NULL, *worked);
+    view_lay_out(v, v->bakes ? slow : NULL, *worked);
     if (v->laid == v->over && !*worked && !redraw)
         return true;
     *worked = true;

@@ -204,7 +204,7 @@ static void step_back(view_state *s, int unused) {
     else if (s->node >= 0)
         s->node = -1;
     else
-        view_say(s, "Ctrl+Q closes the window");
+        s->requests.cancel = true;
 }
 
 enum {
@@ -218,14 +218,15 @@ enum {
     REQUEST_SAVE,
     REQUEST_COPY,
     REQUEST_RESUME,
-    REQUEST_SHARES
+    REQUEST_SHARES,
+    REQUEST_CANCEL
 };
 
 static void request(view_state *s, int what) {
     bool *const requests[] = { &s->requests.quit,       &s->requests.shot,   &s->requests.command,
                                &s->requests.record,     &s->requests.reload, &s->requests.restart,
                                &s->requests.fullscreen, &s->requests.save,   &s->requests.copy,
-                               &s->requests.resume,     &s->requests.shares };
+                               &s->requests.resume,     &s->requests.shares, &s->requests.cancel };
     *requests[what] = true;
 }
 
@@ -336,7 +337,8 @@ const view_key view_keys[] = {
     { "F11", "F11", "full screen", request, REQUEST_FULLSCREEN, "Full screen" },
     { "F1", "F1  ?", "this help", toggle, TOGGLE_HELP, "Help" },
     { "?", NULL, NULL, toggle, TOGGLE_HELP, NULL },
-    { "Escape", "Escape", "close the help, select nothing", step_back, 0, "Close, deselect" },
+    { "Escape", "Escape", "close the help, deselect, cancel", step_back, 0, "Close, deselect" },
+    { "Ctrl+B", "Ctrl B", "cancel drawing it finer, tables", request, REQUEST_CANCEL, "Cancel" },
     { "Ctrl+Q", "Ctrl Q", "quit", request, REQUEST_QUIT, "Quit" },
     { NULL, NULL, NULL, NULL, 0, NULL },
 };

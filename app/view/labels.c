@@ -81,6 +81,10 @@ static int fill_statistics(const viewer *v, view_row rows[STATISTICS_ROWS]) {
     if (told->frame_seconds > 0)
         add_row(rows, &count, "Moving", "%.0f ms a frame, %.1f a second", 1e3 * told->frame_seconds,
                 1 / told->frame_seconds);
+    if (v->percent > 0)
+        add_row(rows, &count, "In work", "%d %%", v->percent);
+    if (told->samples == 0) /* nothing was drawn yet */
+        return count;
     add_row(rows, &count, "Image", "%d × %d, sample %d of %d", told->statistics.width,
             told->statistics.height, told->sample + 1, told->samples);
     add_row(rows, &count, "Geometry", "%.1f ms", t->surfaces);

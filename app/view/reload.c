@@ -42,6 +42,21 @@ void view_free_scene(scene *world) {
     free(world);
 }
 
+/* A scene to load beside the window. */
+typedef struct loading {
+    char name[VIEW_PATH_SIZE], variant[SCENE_NAME_SIZE];
+    scene_options load;
+    const scene_lights_options *lights;
+    scene *world;
+    base_error *error;
+} loading;
+
+static bool load(void *of) {
+    loading *l = of;
+    l->world = view_load_scene(l->name, &l->load, l->lights, l->error);
+    return l->world;
+}
+
 /* Drops replacements of materials that the scene no longer has. */
 static void drop_lost_materials(view_state *state) {
     for (int i = state->now.material_count - 1; i >= 0; i--) {
@@ -103,7 +118,8 @@ static bool open_drawing(viewer *v, const scene *world, const view_settings *set
                          base_error *error) {
     *d = (drawing) { .part = view_part_make(world, settings, error) };
     d->tree = d->part ? view_tree_begin(d->part, error) : NULL;
-    d->compositor = d->tree ? view_compositor_create(&v->context, d->part, d->tree, error) : NULL;
+    d->compositor =
+        d->tree ? view_compositor_create(&v->context, d->part, d->tree, v->work, error) : NULL;
     if (!d->compositor)
         close_drawing(d);
     return d->compositor;
@@ -145,13 +161,24 @@ void view_reload(viewer *v) {
     static const scene_lights_options own = { .file = NULL };
     const view_options *o = v->options;
     const bool other = v->state.other[0];
-    const char *name = other ? v->state.other : v->state.now.scene;
     base_error error;
     if (other)
         view_keep_session(v);
-    scene_options load = o->load;
-    load.variant = other ? NULL : view_variant(&v->state.now);
-    scene *world = view_load_scene(name, &load, other || v->another ? &own : &o->lights, &error);
+    const char *variant = other ? NULL : view_variant(&v->state.now);
+    loading l = { .load = o->load,
+                  .lights = other || v->another ? &own : &o->lights,
+                  .error = &error };
+    strcpy(l.name, other ? v->state.other : v->state.now.scene);
+    strcpy(l.variant, variant ? variant : "");
+    l.load.variant = variant ? l.variant : NULL;
+    v->announcement = "loading the scene …";
+    view_work_run(v->work, load, &l);
+    v->announcement = NULL;
+    scene *world = l.world;
+    if (v->state.requests.reload || v->state.requests.quit) { /* another scene was chosen since */
+        view_free_scene(world);
+        return;
+    }
     drawing d = { .part = NULL };
     if (!world || !open_drawing(v, world, other ? NULL : &v->state.now, &d, &error) ||
         !view_state_replace_scene(&v->state, world, d.tree, &error)) {

@@ -26,7 +26,7 @@ bool view_render(view_settings *settings, const char *device, const char *path, 
     const bool ok = (part = view_part_make(&world, settings, error)) &&
                     open_context(settings, device, &context, error) &&
                     (compositor = view_compositor_create(context.display ? &context : NULL, part,
-                                                         NULL, error)) &&
+                                                         NULL, NULL, error)) &&
                     view_compositor_draw(compositor, settings, &statistics, error) &&
                     view_compositor_write(compositor, settings, path, error);
     view_compositor_destroy(compositor);

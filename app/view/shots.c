@@ -21,9 +21,13 @@ static bool write_shot(viewer *v, const view_settings *settings, const char *pat
                        base_error *error) {
     bool ok = true;
     if (v->fresh || v->sample != settings->samples - 1) {
+        v->shoots = true;
         ok = view_compositor_draw(v->compositor, settings, &v->statistics, error);
         v->sample = settings->samples - 1;
         v->fresh = !ok;
+        v->shoots = v->state.requests.cancel = false;
+        if (ok)
+            memcpy(v->good, settings, view_settings_size(settings));
     }
     return ok && view_compositor_write(v->compositor, settings, path, error);
 }
@@ -91,7 +95,7 @@ bool view_take_shot(viewer *v, const char *path, base_error *error) {
         view_say(&v->state, "There are too many screenshots here");
     else if (write_shot(v, v->drawn, path, error))
         view_say(&v->state, "%s: lampion render --from repeats it", path);
-    else if (scripted)
+    else if (scripted && !v->state.requests.quit)
         return false;
     else
         view_say(&v->state, "%s", error->text);
@@ -196,6 +200,8 @@ static json_t *ui_to_json(const viewer *v) {
     ui = file_json_with(ui, "recorded", json_integer(v->recorded));
     ui = file_json_with(ui, "message", file_json_string(s->message));
     ui = file_json_with(ui, "sample", json_integer(v->sample));
+    ui = file_json_with(ui, "percent", json_integer(v->percent));
+    ui = file_json_with(ui, "cancelled", json_integer(v->cancelled));
     ui = file_json_with(ui, "drawn_width", json_integer(v->statistics.width));
     ui = file_json_with(ui, "drawn_height", json_integer(v->statistics.height));
     ui = file_json_with(ui, "moving_frame_ms", file_json_real(1e3 * v->frame_seconds));

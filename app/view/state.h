@@ -44,7 +44,7 @@ typedef struct view_event {
  * it. */
 typedef struct view_requests {
     bool quit, shot, command, record, reload, restart, fullscreen, expose, redraw, save, copy,
-        resume, nodes, shares;
+        resume, nodes, shares, cancel;
 } view_requests;
 
 typedef enum view_drag {

@@ -12,6 +12,7 @@ struct view_tree {
     trace_bvh *bvh;
     pthread_t builder;
     bool building; /* whether the builder has not been joined */
+    pthread_mutex_t joining;
 };
 
 static void *build(void *user) {
@@ -27,6 +28,7 @@ view_tree *view_tree_begin(const scene *world, base_error *error) {
         return NULL;
     }
     tree->scene = world;
+    pthread_mutex_init(&tree->joining, NULL);
     /* LLVM's OpenMP takes the first thread that calls it for the initial one; were that the
      * builder, its end would be that of all locks. */
     omp_get_max_threads();
@@ -37,15 +39,21 @@ view_tree *view_tree_begin(const scene *world, base_error *error) {
 }
 
 bool view_tree_is_built(view_tree *tree) {
+    if (pthread_mutex_trylock(&tree->joining) != 0)
+        return false; /* another thread waits for it */
     if (tree->building && pthread_tryjoin_np(tree->builder, NULL) == 0)
         tree->building = false;
-    return !tree->building;
+    const bool built = !tree->building;
+    pthread_mutex_unlock(&tree->joining);
+    return built;
 }
 
 const trace_bvh *view_tree_wait(view_tree *tree) {
+    pthread_mutex_lock(&tree->joining);
     if (tree->building)
         pthread_join(tree->builder, NULL);
     tree->building = false;
+    pthread_mutex_unlock(&tree->joining);
     return tree->bvh;
 }
 
@@ -53,6 +61,7 @@ void view_tree_end(view_tree *tree) {
     if (!tree)
         return;
     view_tree_wait(tree);
+    pthread_mutex_destroy(&tree->joining);
     trace_destroy(tree->bvh);
     free(tree);
 }

@@ -24,7 +24,8 @@ static bool open_graphics(viewer *v, base_error *error) {
     view_show_title(v);
     v->state.scale = view_window_scale(v->window);
     return gpu_context_adopt(&v->context, error) &&
-           (v->compositor = view_compositor_create(&v->context, v->part, v->tree, error)) &&
+           (v->compositor =
+                view_compositor_create(&v->context, v->part, v->tree, v->work, error)) &&
            (ui_open(true, view_window_copy, view_window_paste) ||
             base_fail(error, NULL, "the functions of libGL cannot be loaded"));
 }
@@ -67,6 +68,8 @@ static void find_shares(viewer *v) {
 static bool fulfill_requests(viewer *v, base_error *error) {
     const view_requests requests = v->state.requests;
     v->state.requests = (view_requests) { .quit = requests.quit, .redraw = requests.redraw };
+    if (requests.cancel)
+        view_cancel(v);
     if (requests.restart && !restart(v, error))
         return false;
     if (requests.reload)
@@ -117,21 +120,12 @@ static bool play_script(viewer *v, base_error *error) {
     return true;
 }
 
-static void pass_time(viewer *v, double *before) {
-    const double now = view_window_clock();
-    const double passed = view_steps_time(v) ? 1 / (double)v->options->fps : now - *before;
-    *before = now;
-    v->clock += passed;
-    view_advance(&v->state, passed < 0.5 || view_steps_time(v) ? passed : 0.5);
-}
-
 static bool loop(viewer *v, base_error *error) {
-    double before = view_window_clock();
     bool busy = true, worked;
     while (!v->state.requests.quit && (v->options->frames == 0 || v->frame < v->options->frames)) {
         v->state.scale = view_window_scale(v->window);
         view_window_take_events(v->window, busy || view_steps_time(v) ? 0 : 0.05);
-        pass_time(v, &before);
+        view_pass_time(v);
         if (!play_script(v, error))
             return false;
         view_watch(v);
@@ -145,7 +139,7 @@ static bool loop(viewer *v, base_error *error) {
             view_handle(&v->state, &(view_event) { .kind = VIEW_SIZE, .x = width, .y = height });
             if (!view_draw_frame(v, &worked, error))
                 return false;
-            busy = worked || v->sample < v->drawn->samples - 1;
+            busy = worked || v->fresh || (!v->held && v->sample < v->drawn->samples - 1);
         }
         if (!worked && !view_steps_time(v))
             continue;
@@ -194,12 +188,14 @@ static bool open_viewer(viewer *v, base_error *error) {
         snprintf(v->record, sizeof v->record, "%s", o->record);
     v->state.recording = o->record != NULL;
     v->divisor = 1;
-    if (!open_graphics(v, error))
+    v->work = view_work_begin(view_go_on, v, error);
+    if (!v->work || !open_graphics(v, error))
         return false;
+    v->passed_at = view_window_clock();
     v->state.sidebar =
         view_is_interactive(v) && v->state.now.width >= 3 * VIEW_SIDEBAR_WIDTH * v->state.scale;
     if (o->expose && !view_expose(v, error))
-        return false;
+        return v->state.requests.quit;
     v->state.now.exposure *= o->expose ? o->settings.exposure : 1;
     view_begin_session(v);
     return true;
@@ -214,6 +210,7 @@ bool view_run(const view_options *options, base_error *error) {
     if (ok)
         view_keep_session(v);
     view_baking_stop(&v->baking);
+    view_work_end(v->work);
     close_graphics(v);
     view_window_end();
     view_state_close(&v->state);

@@ -11,6 +11,7 @@
 #include "app/view/state.h"
 #include "app/view/view.h"
 #include "app/view/window.h"
+#include "app/view/work.h"
 
 /* The version of a file, as its metadata tells it. */
 typedef struct version {
@@ -49,15 +50,23 @@ typedef struct viewer {
     view_tree *tree;     /* of that part */
     gpu_context context;
     view_window *window;
+    view_work *work;
     view_compositor *compositor;
     view_baking baking;
     view_settings *shown, *drawn, *good; /* current; on the screen; the last that could be drawn */
     bool fresh;                          /* whether `drawn` is not on the screen yet */
-    int sample;                          /* of the refinement on the screen; -1: a preview */
-    int divisor;                         /* of the next preview */
-    double changed_at, frame_seconds;    /* seconds: of the last change; per moving frame */
-    double slow_seconds;                 /* of the frame before, if it had the same size; else 0 */
-    bool moves;                          /* whether the camera moved between the last two frames */
+    bool held;                           /* whether it is not refined, until it changes */
+    bool draws, shoots,
+        bakes;                /* whether `drawn` is in work, for the window or a file; its tables */
+    double began;             /* seconds: when it was begun */
+    int percent;              /* of what is in work; 0 unless it is slow */
+    int cancelled;            /* images, in all */
+    const char *announcement; /* about it, or NULL */
+    int sample;               /* of the refinement on the screen; -1: a preview */
+    int divisor;              /* of the next preview */
+    double changed_at, frame_seconds; /* seconds: of the last change; per moving frame */
+    double slow_seconds;              /* of the frame before, if it had the same size; else 0 */
+    bool moves;                       /* whether the camera moved between the last two frames */
     double show_seconds; /* part of these: scaling, drawings over the image, and the window */
     view_statistics statistics;
     view_told told;
@@ -70,7 +79,7 @@ typedef struct viewer {
     bool pointed;            /* whether the pointer moved since then */
     version seen, candidate; /* of the scene file */
     bool another; /* whether the scene is not that of the options: it has its own lights */
-    double watched_at, clock;
+    double watched_at, clock, passed_at; /* passed_at: by the window's clock */
     int frame, recorded;
     char record[VIEW_PATH_SIZE];
     bool waiting; /* whether slow work that was announced comes next */
@@ -167,6 +176,16 @@ void view_take_event(void *v, const view_event *event);
 /* Whether every frame advances time by a fixed step, so that a script always gives the same
  * images. */
 bool view_steps_time(const viewer *v);
+
+/* Advances all clocks. */
+void view_pass_time(viewer *v);
+
+/* Takes events and draws the interface while something else is in work, and cancels that if nobody
+ * waits for it any more; for view_work_begin. */
+void view_go_on(void *v);
+
+/* Stops refining the image, or making tables: what is shown stays. */
+void view_cancel(viewer *v);
 
 /* Draws and shows changed settings, or refines the image. *worked: whether there was anything to
  * show. */

@@ -124,7 +124,7 @@ static void open_world(const char *name, const char *around, int method) {
     settings.shading[0] = settings.shading[1] =
         (view_shading) { (method_kind)method, method == METHOD_FIELD ? 4 : 10, LMP_WINDOW_NONE };
     put_lights();
-    compositor = view_compositor_create(NULL, &world, tree, &error);
+    compositor = view_compositor_create(NULL, &world, tree, NULL, &error);
     assert_non_null(compositor);
     open_renderer();
 }

@@ -129,6 +129,8 @@ static bool draw(cpu_renderer *r, const render_frame *frame, int first, int end,
                         ? cpu_whole_draw(&r->whole, &d, first, end, refine, times, error)
                         : cpu_tiles_draw(&r->tiles, &d, times, error);
     trace_lamps_destroy(lights);
+    if (!ok)
+        r->whole.kept = NULL; /* its planes may be filled in part */
     if (times)
         times->total = 1e3 * (timing_now() - start);
     return ok;

@@ -289,7 +289,8 @@ static void change(const tiles_job *job, int sample, int end, int number, tile_w
 /* Which samples of each tile to draw: all, the one that the pass looks at, or those it changes. */
 typedef enum tiles_step { ALL, LOOK, CHANGE } tiles_step;
 
-static bool run(const tiles_job *job, tiles_step step, int sample, int end, render_times *times) {
+static bool run(const tiles_job *job, tiles_step step, int sample, int end, render_times *times,
+                base_error *error) {
     const int count = render_tile_count(job->drawing->frame->width, job->drawing->frame->height);
     const double start = timing_now();
     double surfaces = 0, bounces = 0, shade = 0, shadow = 0;
@@ -300,7 +301,7 @@ static bool run(const tiles_job *job, tiles_step step, int sample, int end, rend
         ok = work != NULL;
 #pragma omp for schedule(dynamic)
         for (int i = 0; i < count; i++) {
-            if (!work)
+            if (!work || !render_next_tile(job->drawing->frame))
                 continue;
             work->now = timing_now();
             if (step == ALL)
@@ -326,7 +327,17 @@ static bool run(const tiles_job *job, tiles_step step, int sample, int end, rend
         times->shade += scale * shade;
         times->shadow += scale * shadow;
     }
-    return ok;
+    if (!ok)
+        return base_fail(error, NULL, "out of memory");
+    return render_goes_on(job->drawing->frame, error);
+}
+
+/* Returns how often each tile is worked on. */
+static int count_steps(const tiles_job *job) {
+    int steps = 0;
+    for (int i = 0; i < job->drawing->samples && job->pass; i++)
+        steps += job->pass->looks(job->drawing->frame->shadow.user, i) ? 2 : 0;
+    return job->pass ? steps : 1;
 }
 
 /* Draws the samples that the pass looks at, each followed by the samples up to the next one. */
@@ -338,14 +349,14 @@ static bool run_pass(const tiles_job *job, render_times *times, base_error *erro
             end++;
         if (!job->pass->begin(user, d->frame, i, error))
             return false;
-        if (!run(job, LOOK, i, i + 1, times))
-            return base_fail(error, NULL, "out of memory");
+        if (!run(job, LOOK, i, i + 1, times, error))
+            return false;
         const double start = timing_now();
         job->pass->mix(user);
         if (times)
             times->shadow += 1e3 * (timing_now() - start);
-        if (!run(job, CHANGE, i, end, times))
-            return base_fail(error, NULL, "out of memory");
+        if (!run(job, CHANGE, i, end, times, error))
+            return false;
     }
     return true;
 }
@@ -358,8 +369,10 @@ bool cpu_tiles_draw(cpu_tiles *kept, const cpu_drawing *d, render_times *times, 
     bool ok = shade || base_fail(error, NULL, "out of memory");
     for (int i = 0; ok && i < d->samples; i++)
         ok = render_camera_set(d->view.scene, frame, i, &cameras[i], error);
+    render_progress_reset(frame->progress,
+                          count_steps(&job) * render_tile_count(frame->width, frame->height));
     if (ok && !job.pass)
-        ok = run(&job, ALL, 0, d->samples, times) || base_fail(error, NULL, "out of memory");
+        ok = run(&job, ALL, 0, d->samples, times, error);
     else if (ok)
         ok = (size_kept(d, kept) || base_fail(error, NULL, "out of memory for an image of %d x %d",
                                               frame->width, frame->height)) &&

@@ -55,6 +55,8 @@ static void find_surfaces(cpu_whole *w, const cpu_drawing *d, const render_camer
 #pragma omp parallel for schedule(dynamic)
     for (int i = 0; i < count; i++) {
         const render_rectangle pixels = render_tile_at(s->width, s->height, i);
+        if (!render_next_tile(d->frame))
+            continue;
         if (again)
             cpu_rays_light(&d->view, &pixels, s);
         else
@@ -106,6 +108,8 @@ static bool draw_sample(cpu_whole *w, const cpu_drawing *d, int index, bool keep
     const double start = timing_now();
     find_surfaces(w, d, &camera, keep && !kept ? &w->first : NULL, s);
     const double found = timing_now();
+    if (!render_goes_on(frame, error))
+        return false;
     if (!render_surfaces_fill_bounced(s))
         return base_fail(error, NULL, "out of memory");
     const double bounced = timing_now();
@@ -115,6 +119,8 @@ static bool draw_sample(cpu_whole *w, const cpu_drawing *d, int index, bool keep
     shade_end(job);
     if (!ok)
         return base_fail(error, NULL, "out of memory");
+    if (!render_goes_on(frame, error))
+        return false;
     if (kept) { /* keep a copy before shadows change the radiance */
         mark_shared(&w->first, rgba);
         memcpy(w->rgba, rgba, 4 * (size_t)frame->width * (size_t)frame->height * sizeof *w->rgba);
@@ -134,8 +140,12 @@ static bool draw_sample(cpu_whole *w, const cpu_drawing *d, int index, bool keep
 bool cpu_whole_draw(cpu_whole *w, const cpu_drawing *d, int first, int end, bool show,
                     render_times *times, base_error *error) {
     const bool keep = d->samples > 1;
+    /* surfaces, shades, and shadows seldom or never in two steps */
+    const int steps = (end - first) * (d->frame->shadow.run ? 4 : 2);
     if (!size_planes(w, d, keep, error))
         return false;
+    render_progress_reset(d->frame->progress,
+                          steps * render_tile_count(d->frame->width, d->frame->height));
     for (int i = first; i < end; i++) {
         if (!draw_sample(w, d, i, keep, times, error))
             return false;

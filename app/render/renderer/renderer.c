@@ -260,18 +260,3 @@ bool renderer_read_image(any_renderer *r, image *pixels, base_error *error) {
            3 * (size_t)from->width * (size_t)from->height * sizeof *pixels->rgb);
     return true;
 }
-
-bool renderer_show(any_renderer *r, gpu_screen *screen, int side, const image_display *display) {
-    if (r->gl) {
-        gpu_screen_take(screen, r->gl, side, display);
-        return true;
-    }
-    const image *from = cpu_image(r->cpu);
-    unsigned char *rgb8 = malloc(3 * (size_t)from->width * (size_t)from->height);
-    if (!rgb8)
-        return false;
-    image_tone_map(from, display, rgb8);
-    gpu_screen_put(screen, side, from->width, from->height, rgb8);
-    free(rgb8);
-    return true;
-}

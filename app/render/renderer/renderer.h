@@ -118,8 +118,4 @@ bool renderer_read_rgb8(any_renderer *renderer, const image_display *display, un
                         render_times *times, base_error *error);
 bool renderer_read_image(any_renderer *renderer, image *image, base_error *error);
 
-/* Copies the image, tone-mapped, to a window's `side`, 0 or 1. Returns false if memory ran out. */
-bool renderer_show(any_renderer *renderer, gpu_screen *screen, int side,
-                   const image_display *display);
-
 #endif

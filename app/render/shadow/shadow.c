@@ -225,7 +225,8 @@ static void change_later(const void *user, void *with, const render_surfaces *su
 
 typedef enum shadow_step { LOOK, CHANGE, CHANGE_LATER } shadow_step;
 
-static bool run_tiles(shadow *s, shadow_step step, const render_surfaces *surfaces, float *rgba) {
+static bool run_tiles(shadow *s, shadow_step step, const render_frame *frame,
+                      const render_surfaces *surfaces, float *rgba, base_error *error) {
     const int width = s->planes.width, height = s->planes.height;
     const int count = render_tile_count(width, height);
     bool ok = true;
@@ -236,6 +237,8 @@ static bool run_tiles(shadow *s, shadow_step step, const render_surfaces *surfac
 #pragma omp for schedule(dynamic)
         for (int i = 0; i < count; i++) {
             const render_rectangle pixels = render_tile_at(width, height, i);
+            if (!render_next_tile(frame))
+                continue;
             if (work && step == LOOK)
                 look(s, work, surfaces, &pixels);
             else if (step == CHANGE)
@@ -245,7 +248,7 @@ static bool run_tiles(shadow *s, shadow_step step, const render_surfaces *surfac
         }
         close_work(s, work);
     }
-    return ok;
+    return ok ? render_goes_on(frame, error) : fail_memory(NULL, error);
 }
 
 static bool cast(void *user, const render_frame *frame, const render_surfaces *surfaces,
@@ -253,13 +256,11 @@ static bool cast(void *user, const render_frame *frame, const render_surfaces *s
     shadow *s = user;
     const int sample = surfaces->camera.sample;
     if (!looks(s, sample))
-        return run_tiles(s, CHANGE_LATER, surfaces, rgba) || fail_memory(NULL, error);
-    if (!begin(s, frame, sample, error))
+        return run_tiles(s, CHANGE_LATER, frame, surfaces, rgba, error);
+    if (!begin(s, frame, sample, error) || !run_tiles(s, LOOK, frame, surfaces, NULL, error))
         return false;
-    if (!run_tiles(s, LOOK, surfaces, NULL))
-        return fail_memory(NULL, error);
     mix(s);
-    return run_tiles(s, CHANGE, surfaces, rgba) || fail_memory(NULL, error);
+    return run_tiles(s, CHANGE, frame, surfaces, rgba, error);
 }
 
 render_pass shadow_pass(shadow *s) {
