@@ -15,8 +15,8 @@ fi
 cd "$WORK"
 value() { sed -n "s/^[[:space:]]*\"$1\":[[:space:]]*\(.*[^,]\),\{0,1\}$/\1/p" state.json 2>/dev/null | head -n 1; }
 is() { [ "$(value "$1")" = "$2" ]; }
-target() { sed -n '/"target"/,/\]/p' state.json | tr -d ' \n'; }
-moved() { [ "$(target)" != "$before" ]; }
+eye() { sed -n '/"eye"/,/\]/p' state.json | tr -d ' \n'; }
+moved() { [ "$(eye)" != "$before" ]; }
 # The state tells of work only while it is going on.
 in_work() { [ "$(value percent)" -gt 0 ] 2>/dev/null; }
 refining() { in_work && [ "$(value sample)" -gt 0 ]; }
@@ -51,9 +51,9 @@ quit
 open 3000
 until_true "a finer image in work" refining
 xdotool mousemove 200 200
-before=$(target)
+before=$(eye)
 count=$(value cancelled)
-xdotool mousedown 1 mousemove 230 210 mousemove 260 220 mouseup 1
+xdotool keydown w sleep 0.5 keyup w
 until_true "the camera" moved
 until_true "an end of the finer image" cancelled "$count"
 
