@@ -34,8 +34,7 @@ struct view_compositor {
     view_work *work;           /* or NULL */
     render_progress *progress; /* of what is being drawn by `work`, else NULL */
     scene preview;             /* without vertices, the scene itself is drawn instead */
-    gpu_screen *screen;
-    view_side shown[2]; /* the images of the sides, until they are on the screen if there is one */
+    view_images images;
     side sides[2];
     shadow *shadows;
     transfer *bounces; /* once light bounces */
@@ -58,8 +57,8 @@ view_compositor *view_compositor_create(const gpu_context *context, const scene 
     if (!context)
         return s;
     render_device_adopt(context, world, &s->gpu);
-    s->screen = gpu_screen_create(error);
-    if (!s->screen) {
+    s->images.screen = gpu_screen_create(error);
+    if (!s->images.screen) {
         view_compositor_destroy(s);
         return NULL;
     }
@@ -85,9 +84,7 @@ void view_compositor_destroy(view_compositor *s) {
     transfer_destroy(s->bounces);
     environment_free(&s->surroundings.around);
     free(s->lit);
-    gpu_screen_destroy(s->screen);
-    free(s->shown[0].rgb8);
-    free(s->shown[1].rgb8);
+    view_images_free(&s->images);
     render_device_close(&s->gpu);
     render_device_close(&s->cpu);
     view_preview_free(&s->preview);
@@ -101,7 +98,8 @@ static bool prepare_field(view_compositor *s, side *own, const view_shading *sha
                           render_frame *frame, base_error *error) {
     const shade_field_options options = { .error = SHADE_FIELD_ERROR,
                                           .moves = true,
-                                          .bytes_max = s->screen ? s->gpu.gl.storage_max : 0 };
+                                          .bytes_max =
+                                              s->images.screen ? s->gpu.gl.storage_max : 0 };
     const bool read = method_table[shading->method].reads & METHOD_READS_FIELD;
     if (own->field &&
         !(read && shade_field_describe(own->field).info.desc.bands == shading->bands)) {
@@ -250,7 +248,7 @@ bool view_compositor_does_without(const view_settings *settings) {
 static any_renderer *open_side(view_compositor *s, side *own, const view_settings *settings,
                                const view_shading *shading, quality fineness, base_error *error) {
     const bool shines = environment_shines(&s->surroundings.around);
-    if (!s->screen || device_of(settings, shading, shines, s->gpu.gl.software) == DEVICE_CPU)
+    if (!s->images.screen || device_of(settings, shading, shines, s->gpu.gl.software) == DEVICE_CPU)
         return open_cpu(s, own, error) ? own->cpu : NULL;
     return open_gpu(s, own, fineness, error) ? own->renderers[fineness] : NULL;
 }
@@ -416,33 +414,6 @@ static bool run(view_compositor *s, const view_settings *settings, bool (*task)(
     return ok;
 }
 
-/* Stores a side's image: on the screen if it is the GPU's. */
-static bool store_side(view_compositor *s, const view_settings *settings, any_renderer *renderer,
-                       const render_frame *frame, int number, base_error *error) {
-    const image_display display = { .exposure = settings->exposure, .tone = settings->tone };
-    view_side *shown = &s->shown[number];
-    if (s->screen && renderer->gl) {
-        gpu_screen_take(s->screen, renderer->gl, number, &display);
-        return true;
-    }
-    free(shown->rgb8);
-    *shown = (view_side) { frame->width, frame->height,
-                           malloc(3 * (size_t)frame->width * (size_t)frame->height) };
-    return shown->rgb8 ? renderer_read_rgb8(renderer, &display, shown->rgb8, NULL, error)
-                       : base_fail(error, NULL, "out of memory");
-}
-
-/* Shows the images of the CPU, if they are good. */
-static void show_stored(view_compositor *s, bool good) {
-    for (int i = 0; i < 2 && s->screen; i++) {
-        view_side *shown = &s->shown[i];
-        if (good && shown->rgb8)
-            gpu_screen_put(s->screen, i, shown->width, shown->height, shown->rgb8);
-        free(shown->rgb8);
-        shown->rgb8 = NULL;
-    }
-}
-
 /* What to draw: sample `index`, or all samples if it is -1. */
 typedef struct drawing {
     view_compositor *compositor;
@@ -458,6 +429,7 @@ static bool draw_sides(void *of) {
     const view_settings *settings = d->settings;
     const int divisor = d->divisor, index = d->index;
     view_statistics *statistics = &d->statistics;
+    const image_display display = { .exposure = settings->exposure, .tone = settings->tone };
     base_error *error = d->error;
     const int sides = view_sides(settings);
     const bool rests = memcmp(&s->camera, &settings->camera, sizeof s->camera) == 0;
@@ -481,7 +453,7 @@ static bool draw_sides(void *of) {
         if (index < 0 ? !renderer_draw(renderer, &frame, &times, error)
                       : !renderer_refine(renderer, &frame, index, &times, error))
             return false;
-        if (!store_side(s, settings, renderer, &frame, i, error))
+        if (!view_images_take(&s->images, i, renderer, &frame, &display, error))
             return false;
         statistics->times.surfaces += times.surfaces;
         statistics->times.shade += times.shade;
@@ -501,7 +473,7 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
                  view_statistics *statistics, base_error *error) {
     drawing d = { s, settings, divisor, index, { .width = 0 }, error };
     const bool ok = run(s, settings, draw_sides, &d);
-    show_stored(s, ok);
+    view_images_put(&s->images, ok);
     if (ok)
         *statistics = d.statistics;
     return ok;
@@ -610,28 +582,11 @@ bool view_compositor_split(view_compositor *s, const view_settings *settings, in
     return ok;
 }
 
-static gpu_layout layout_of(const view_settings *settings, float line) {
-    return (gpu_layout) { settings->width, settings->height, settings->split, settings->divider,
-                          line };
-}
-
 void view_compositor_show(view_compositor *s, const view_settings *settings, float line) {
-    const gpu_layout layout = layout_of(settings, line);
-    gpu_screen_show(s->screen, &layout);
+    view_images_show(&s->images, settings, line);
 }
 
 bool view_compositor_write(view_compositor *s, const view_settings *settings, const char *path,
                            base_error *error) {
-    const gpu_layout layout = layout_of(settings, 0);
-    unsigned char *rgb8 = malloc(3 * (size_t)settings->width * (size_t)settings->height);
-    if (!rgb8)
-        return base_fail(error, path, "out of memory");
-    bool ok = true;
-    if (s->screen)
-        ok = gpu_screen_read(s->screen, &layout, rgb8, error);
-    else
-        view_compose(s->shown, &layout, rgb8);
-    ok = ok && view_write_shot(settings, rgb8, path, error);
-    free(rgb8);
-    return ok;
+    return view_images_write(&s->images, settings, path, error);
 }

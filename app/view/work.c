@@ -3,11 +3,13 @@
 
 #include <pthread.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <time.h>
 
 /* Between two calls of `meanwhile`: with the time to draw the interface, an event is answered
  * within two frames of a display. */
 enum { NANOSECONDS = 8000000, NANOSECONDS_A_SECOND = 1000000000 };
+enum { YIELDING = 5 }; /* by which the thread is nicer than the window's */
 
 struct view_work {
     pthread_t thread;
@@ -23,6 +25,8 @@ struct view_work {
 
 static void *serve(void *of) {
     view_work *work = of;
+    /* of this thread, on Linux, and of those that it will start: the window comes first */
+    setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + YIELDING);
     pthread_mutex_lock(&work->lock);
     while (!work->ends) {
         if (!work->task) {

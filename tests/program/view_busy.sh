@@ -58,7 +58,7 @@ until_true "the camera" moved
 until_true "an end of the finer image" cancelled "$count"
 
 # Escape and the action end it as well, until something changes.
-for key in Escape ctrl+e; do
+for key in Escape ctrl+b; do
     until_true "a finer image in work, again" refining
     xdotool key $key
     until_true "the cancellation by $key" is message '"Cancelled: a change draws the image again"'
