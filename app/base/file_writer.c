@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +21,9 @@
 static char pending_path[PENDING_MAX][PATH_SIZE];
 static volatile sig_atomic_t pending_used[PENDING_MAX];
 
+/* Of what is static here, and of the process's umask: the viewer writes files on two threads. */
+static pthread_mutex_t shared = PTHREAD_MUTEX_INITIALIZER;
+
 void file_remove_temporaries(void) {
     for (int i = 0; i < PENDING_MAX; i++)
         if (pending_used[i])
@@ -28,8 +32,8 @@ void file_remove_temporaries(void) {
 
 static const int interrupts[] = { SIGINT, SIGTERM, SIGHUP };
 
-/* Removes pending temporaries from a signal handler, always in the main thread: it writes the
- * files, so it makes none meanwhile. */
+/* Removes pending temporaries from a signal handler, always in the main thread: it writes most
+ * files, so it makes none meanwhile. What another thread makes then, a later run removes. */
 static void remove_pending(int number) {
     if (gettid() != getpid()) {
         tgkill(getpid(), getpid(), number);
@@ -73,9 +77,11 @@ static int make_temporary(char *name) {
 }
 
 static void forget(const char *temporary) {
+    pthread_mutex_lock(&shared);
     for (int i = 0; i < PENDING_MAX; i++)
         if (pending_used[i] && strcmp(pending_path[i], temporary) == 0)
             pending_used[i] = 0;
+    pthread_mutex_unlock(&shared);
 }
 
 /* --- what killed runs left -------------------------------------------------------------------- */
@@ -212,15 +218,18 @@ bool file_write_begin(file_writer *writer, const char *path, base_error *error) 
         return base_fail(error, path, "is a directory, not a file");
     if (exists && !S_ISREG(status.st_mode))
         return base_fail(error, path, "is not a regular file");
-    if (!name_temporary(writer, path))
-        return base_fail(error, path, "is too long a name");
-    if (!open_temporary(writer)) {
-        writer->reason = errno;
-        return file_write_fail(writer, NULL, error);
-    }
+    pthread_mutex_lock(&shared);
+    const bool named = name_temporary(writer, path);
+    const bool opened = named && open_temporary(writer);
+    writer->reason = opened ? 0 : errno;
     /* mkostemp makes the file private: give it the mode of any new file. */
     const mode_t mask = umask(0);
     umask(mask);
+    pthread_mutex_unlock(&shared);
+    if (!named)
+        return base_fail(error, path, "is too long a name");
+    if (!opened)
+        return file_write_fail(writer, NULL, error);
     fchmod(writer->descriptor, exists ? status.st_mode & 0777 : 0666 & ~mask);
     return true;
 }
