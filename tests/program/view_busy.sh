@@ -4,7 +4,7 @@
 set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
-tries=${TRIES:-600}
+tries=600
 export ASAN_OPTIONS=detect_leaks=0 LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache" OMP_NUM_THREADS=1
 mkdir -p "$XDG_CACHE_HOME"
 if [ -z "${LAMPION_VIEW_DISPLAY:-}" ]; then
