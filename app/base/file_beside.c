@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -107,13 +108,13 @@ bool file_is_beside(const char *path, const char *file) {
 
 /* --- untrusted names -------------------------------------------------------------------------- */
 
-/* Names that are confined to a folder. A program has only a few; they are recorded before any
- * thread starts and are never freed. */
+/* Names that are confined to a folder. A program has only a few, which one thread records and none
+ * frees; others may look meanwhile. */
 typedef struct confined {
     char *path, *folder;
     struct confined *next;
 } confined;
-static confined *all_confined;
+static _Atomic(confined *) all_confined;
 
 static const char *folder_of(const char *path) {
     for (const confined *c = all_confined; c; c = c->next)

@@ -90,7 +90,7 @@ static void add(view_recent *recent, const char *full_name) {
 
 void view_begin_session(viewer *v) {
     char name[VIEW_PATH_SIZE];
-    v->began = v->state.now.camera;
+    v->opened_with = v->state.now.camera;
     if (!view_is_interactive(v))
         return;
     if (!read_list(&v->recent)) {
@@ -106,7 +106,7 @@ void view_keep_session(const viewer *v) {
     char name[VIEW_PATH_SIZE];
     file_path path;
     const bool changed =
-        s->lights_edited || memcmp(&v->began, &s->now.camera, sizeof v->began) != 0;
+        s->lights_edited || memcmp(&v->opened_with, &s->now.camera, sizeof v->opened_with) != 0;
     if (!view_is_interactive(v) || !changed || !full_name_of(s->now.scene, name) ||
         !session_path_of(name, path))
         return;

@@ -75,9 +75,9 @@ typedef struct viewer {
     double uncovered;    /* width of the image beside the sidebar, in pixels */
     view_sidebar sidebar;
     view_recent recent;
-    scene_camera began;      /* the camera that the scene was opened with */
-    bool pointed;            /* whether the pointer moved since then */
-    version seen, candidate; /* of the scene file */
+    scene_camera opened_with; /* the camera that the scene was opened with */
+    bool pointed;             /* whether the pointer moved since then */
+    version seen, candidate;  /* of the scene file */
     bool another; /* whether the scene is not that of the options: it has its own lights */
     double watched_at, clock, passed_at; /* passed_at: by the window's clock */
     int frame, recorded;

@@ -48,7 +48,7 @@ is drawn_width 0 || fail "the image was not slow"
 quit
 
 # A finer image gives way to the camera's motion, and is drawn when that ends.
-open 3000
+open 6000
 until_true "a finer image in work" refining
 xdotool mousemove 200 200
 before=$(eye)
