@@ -251,15 +251,24 @@ static lmp_vec3 axis_of(const sketch *k, view_handle_kind handle) {
                : vec_normalize(*half_of(&light, handle), axes[0]);
 }
 
+/* Returns how many members of a type a light has. */
+static int count_members(const lmp_light *light, scene_light_type type) {
+    int count = 0;
+    for (const scene_light_member *m = scene_light_kinds[light->kind].members; m->name; m++)
+        count += m->type == type;
+    return count;
+}
+
 static void add_sizes(const sketch *k) {
     const lmp_light *light = &k->light.emitter;
     const lmp_vec3 axis = axis_of(k, VIEW_HANDLE_WIDTH);
+    const int extents = count_members(light, SCENE_LIGHT_EXTENT);
     add_ring(k, scene_light_extent(light) > 0 ? VIEW_HANDLE_SIZE : VIEW_HANDLE_NONE);
-    if (light->kind == LMP_LIGHT_RECTANGLE || light->kind == LMP_LIGHT_TUBE)
+    if (extents > 0)
         add_knobs(k, VIEW_HANDLE_WIDTH, axis);
-    if (light->kind == LMP_LIGHT_RECTANGLE)
+    if (extents > 1)
         add_knobs(k, VIEW_HANDLE_HEIGHT, axis_of(k, VIEW_HANDLE_HEIGHT));
-    if (light->kind == LMP_LIGHT_TUBE) /* beside it, as one looks */
+    if (extents == 1) /* a tube's, beside it, as one looks */
         add_knobs(k, VIEW_HANDLE_RADIUS, vec_reject(vec_cross(axis, k->ray.direction), axis));
 }
 
@@ -280,12 +289,13 @@ static void add_angle(const sketch *k, view_handle_kind handle) {
 static void add_direction(const sketch *k) {
     const lmp_light *light = &k->light.emitter;
     const lmp_vec3 axis = scene_light_axis(light);
-    if (light->kind == LMP_LIGHT_SPOT) {
+    const int angles = count_members(light, SCENE_LIGHT_ANGLE);
+    if (angles > 1) {
         add_angle(k, VIEW_HANDLE_OUTER);
         add_angle(k, VIEW_HANDLE_INNER);
-    }
-    if (light->kind == LMP_LIGHT_CAP)
+    } else if (angles > 0) {
         add_angle(k, VIEW_HANDLE_ANGLE);
+    }
     if (!k->moves) { /* it shines from there */
         add_line(k, VIEW_HANDLE_NONE, k->center, at(k, axis, REACH * k->pixel));
         add_knob(k, VIEW_HANDLE_DIRECTION, axis, REACH * k->pixel);
