@@ -94,7 +94,7 @@ typedef struct render_frame {
     render_bounces bounces;   /* zero: none */
     bool keep_geometry;     /* keep it, and draw only lights if the last frame had the same view */
     float samples_exposure; /* the exposure that the mean is weighted for; 0: the plain mean */
-    render_progress *progress; /* or NULL; what is cancelled fails, and is begun anew */
+    render_progress *progress; /* or NULL; what is cancelled fails, and is begun again */
 } render_frame;
 
 static inline void render_progress_reset(render_progress *progress, int all) {

@@ -224,11 +224,15 @@ lmp_light scene_light_from(lmp_vec3 direction) {
                          .irradiance = { 1, 1, 1 } };
 }
 
+int scene_light_members_of(const lmp_light *light, scene_light_type type) {
+    int count = 0;
+    for (const scene_light_member *m = scene_light_kinds[light->kind].members; m->name; m++)
+        count += m->type == type;
+    return count;
+}
+
 bool scene_light_has(const scene_light *light, scene_light_type type) {
-    const scene_light_member *m = scene_light_kinds[light->emitter.kind].members;
-    while (m->name && m->type != type)
-        m++;
-    return m->name;
+    return scene_light_members_of(&light->emitter, type) > 0;
 }
 
 bool scene_light_is_area(const lmp_light *light) {

@@ -72,6 +72,9 @@ lmp_light scene_light_model(lmp_light_kind kind, float irradiance, float diagona
 /* Returns a light of irradiance 1 from a single direction. */
 lmp_light scene_light_from(lmp_vec3 direction);
 
+/* Returns how many members of the type lights of this kind have. */
+int scene_light_members_of(const lmp_light *light, scene_light_type type);
+
 /* Whether lights of this kind have a member of the type. */
 bool scene_light_has(const scene_light *light, scene_light_type type);
 

@@ -251,18 +251,10 @@ static lmp_vec3 axis_of(const sketch *k, view_handle_kind handle) {
                : vec_normalize(*half_of(&light, handle), axes[0]);
 }
 
-/* Returns how many members of a type a light has. */
-static int count_members(const lmp_light *light, scene_light_type type) {
-    int count = 0;
-    for (const scene_light_member *m = scene_light_kinds[light->kind].members; m->name; m++)
-        count += m->type == type;
-    return count;
-}
-
 static void add_sizes(const sketch *k) {
     const lmp_light *light = &k->light.emitter;
     const lmp_vec3 axis = axis_of(k, VIEW_HANDLE_WIDTH);
-    const int extents = count_members(light, SCENE_LIGHT_EXTENT);
+    const int extents = scene_light_members_of(light, SCENE_LIGHT_EXTENT);
     add_ring(k, scene_light_extent(light) > 0 ? VIEW_HANDLE_SIZE : VIEW_HANDLE_NONE);
     if (extents > 0)
         add_knobs(k, VIEW_HANDLE_WIDTH, axis);
@@ -289,7 +281,7 @@ static void add_angle(const sketch *k, view_handle_kind handle) {
 static void add_direction(const sketch *k) {
     const lmp_light *light = &k->light.emitter;
     const lmp_vec3 axis = scene_light_axis(light);
-    const int angles = count_members(light, SCENE_LIGHT_ANGLE);
+    const int angles = scene_light_members_of(light, SCENE_LIGHT_ANGLE);
     if (angles > 1) {
         add_angle(k, VIEW_HANDLE_OUTER);
         add_angle(k, VIEW_HANDLE_INNER);

@@ -45,16 +45,21 @@ static void stand(lmp_vec3 center, float radius, lmp_rgb color, float factor, li
     to->rgb[2][k] = color.b * factor;
 }
 
+/* Whether a packed light is a cap for which no sphere stands in. */
+static bool is_wide(const lmpi_packed_light *packed) {
+    return packed->form == LMPI_FORM_CAP && !(packed->size <= WIDEST_SPHERE);
+}
+
 /* Puts a sphere or a Dirac that looks the same from the origin as the light from the point; returns
- * false for a light that needs more. */
+ * false for a wide cap. */
 static bool stand_in(const lmp_light *light, lmp_vec3 point, light_stand_ins *to) {
     lmpi_packed_light packed;
     lmpi_light_pack(light, &packed);
     const lmp_vec3 at = packed.at;
+    if (is_wide(&packed))
+        return false;
     if (packed.form == LMPI_FORM_CAP) {
         const float t = packed.size;
-        if (!(t <= WIDEST_SPHERE))
-            return false;
         stand(at, sqrtf(t * (2 - t) * square_of(at)), packed.color, 1, to);
         to->ambient.r += packed.ambient.r;
         to->ambient.g += packed.ambient.g;
@@ -95,15 +100,15 @@ static void sum_stand_ins(int bands, const light_stand_ins *lights, bool adds, f
                                                                         1, &out);
 }
 
-/* Projects lights that are no areas. Those that need more come one by one, after all others. */
+/* Projects lights that are no areas. Wide caps come one by one, after all others. */
 static void project_side_by_side(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                                  float *sh) {
     const size_t plane = LMP_SH_COUNT(bands);
     float *const planes[3] = { sh, sh + plane, sh + 2 * plane };
     light_stand_ins group = { .count = 0 };
-    bool adds = false, more = false;
+    bool adds = false, any_wide = false;
     for (size_t i = 0; i < count; i++) {
-        more |= !stand_in(&lights[i], point, &group);
+        any_wide |= !stand_in(&lights[i], point, &group);
         if (group.count == LMP_LIGHT_GROUP || i + 1 == count) {
             sum_stand_ins(bands, &group, adds, sh);
             group.count = 0;
@@ -113,10 +118,11 @@ static void project_side_by_side(int bands, const lmp_light *lights, size_t coun
     sh[0] += group.ambient.r / lmpi_table_pole[0];
     sh[plane] += group.ambient.g / lmpi_table_pole[0];
     sh[2 * plane] += group.ambient.b / lmpi_table_pole[0];
-    for (size_t i = 0; more && i < count; i++) {
-        light_stand_ins one = { .count = 0 };
+    for (size_t i = 0; any_wide && i < count; i++) {
+        lmpi_packed_light packed;
         lmp_cap cap;
-        if (stand_in(&lights[i], point, &one))
+        lmpi_light_pack(&lights[i], &packed);
+        if (!is_wide(&packed))
             continue;
         lmp_light_find_cap(&lights[i], point, &cap);
         lmpi_cap_add(0, bands, &cap, planes);
