@@ -63,14 +63,27 @@ static double laplacian_weight(double mu, int l) {
     return 1 / (1 + mu * eigenvalue(l) * eigenvalue(l));
 }
 
-/* Returns the squared Laplacian that remains under the weights of mu. */
-static double squared_laplacian(int bands, const double *energy, double mu) {
-    double sum = 0;
-    for (int l = 0; l < bands; l++) {
-        const double part = laplacian_weight(mu, l) * eigenvalue(l);
-        sum += part * part * energy[l];
+/* Returns the mu whose weights leave the fraction `keep` of the squared Laplacian f. By Newton's
+ * method for f^(-1/2), which grows with mu and is concave, as a power mean of terms linear in mu:
+ * from 0 on, the steps approach the solution from below. */
+static double find_mu(int bands, const double *energy, double keep) {
+    double mu = 0, target = 0;
+    for (int step = 0; step < 100; step++) {
+        double f = 0, slope = 0; /* slope: -f'/2 */
+        for (int l = 1; l < bands; l++) {
+            const double weight = laplacian_weight(mu, l), square = eigenvalue(l) * eigenvalue(l);
+            const double part = weight * weight * square * energy[l];
+            f += part;
+            slope += part * weight * square;
+        }
+        if (step == 0)
+            target = keep * f;
+        const double more = f * (sqrt(f / target) - 1) / slope;
+        if (!(more > 1e-14 * mu)) /* or NaN, if f is 0 */
+            break;
+        mu += more;
     }
-    return sum;
+    return mu;
 }
 
 void lmp_sh_make_laplacian_window(int bands, float keep, const float *sh, float *weights) {
@@ -81,23 +94,9 @@ void lmp_sh_make_laplacian_window(int bands, float keep, const float *sh, float 
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++)
             energy[l] += (double)sh[LMP_SH_INDEX(l, m)] * (double)sh[LMP_SH_INDEX(l, m)];
-    const double target = (double)keep * squared_laplacian(bands, energy, 0);
-    /* The squared Laplacian falls as mu grows: bracket, then bisect in steps of equal ratio. */
-    double low = 0, high = 0;
-    if (keep < 1 && target > 0) {
-        low = 1e-12, high = 1e-12;
-        while (squared_laplacian(bands, energy, high) > target)
-            high *= 16;
-        for (int step = 0; step < 80; step++) {
-            const double middle = sqrt(low * high);
-            if (squared_laplacian(bands, energy, middle) > target)
-                low = middle;
-            else
-                high = middle;
-        }
-    }
+    const double mu = find_mu(bands, energy, (double)keep);
     for (int l = 0; l < bands; l++)
-        weights[l] = (float)laplacian_weight(high, l);
+        weights[l] = (float)laplacian_weight(mu, l);
 }
 
 LMPI_INLINE void apply(int bands, const float *weights, const float *sh, float *windowed) {
