@@ -15,10 +15,12 @@ typedef struct quadratic {
     double constant, linear[3], a[3][3];
 } quadratic;
 
-static quadratic quadratic_of(int bands, const float *sh) {
+/* Returns the quadratic of up to three bands, each times its weight. */
+static quadratic quadratic_of(int bands, const float *sh, const double weights[3]) {
     double f[9] = { 0 };
-    for (size_t i = 0; i < LMP_SH_COUNT(bands); i++)
-        f[i] = (double)sh[i];
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++)
+            f[LMP_SH_INDEX(l, m)] = weights[l] * (double)sh[LMP_SH_INDEX(l, m)];
     const double y1 = sqrt(3 / (4 * pi)), y2 = sqrt(15 / (4 * pi));
     const double y20 = sqrt(5 / (16 * pi)), y22 = sqrt(15 / (16 * pi));
     const double xy = y2 * f[4] / 2, yz = -y2 * f[5] / 2, zx = -y2 * f[7] / 2;
@@ -33,8 +35,8 @@ static quadratic quadratic_of(int bands, const float *sh) {
 
 /* Rotates the axes p and q so that a[p][q] = 0 (Jacobi), and linear with them. */
 static void annihilate(quadratic *f, int p, int q) {
-    if (f->a[p][q] == 0)
-        return;
+    if (fabs(f->a[p][q]) <= 1e-18 * (fabs(f->a[p][p]) + fabs(f->a[q][q])))
+        return; /* it is lost beside them */
     const double tau = (f->a[q][q] - f->a[p][p]) / (2 * f->a[p][q]);
     const double t = (tau < 0 ? -1 : 1) / (fabs(tau) + sqrt(1 + tau * tau));
     const double c = 1 / sqrt(1 + t * t), s = t * c;
@@ -53,15 +55,27 @@ static void annihilate(quadratic *f, int p, int q) {
     f->linear[q] = s * lp + c * lq;
 }
 
-/* Returns |n| - 1 of the stationary point n = -linear/2 / (A - lambda), with lambda below all
- * eigenvalues. */
-static double excess(const quadratic *f, double lambda) {
-    double sum = 0;
-    for (int k = 0; k < 3; k++) {
-        const double n = f->linear[k] / (2 * (f->a[k][k] - lambda));
-        sum += n * n;
+/* Returns the lambda at which the stationary point n = -linear/2 / (A - lambda) is unit, or the
+ * least eigenvalue if n is shorter there. Where each axis alone would make n as long as 1, n is at
+ * least as long as 1; from there, Newton's method for 1 / |n|, which is concave, descends to it. */
+static double find_lambda(const quadratic *f) {
+    double lambda = INFINITY;
+    for (int k = 0; k < 3; k++)
+        lambda = fmin(lambda, f->a[k][k] - fabs(f->linear[k]) / 2);
+    for (int step = 0; step < 60; step++) {
+        double square = 0, slope = 0; /* |n|² and half its derivative */
+        for (int k = 0; k < 3; k++) {
+            const double above = f->a[k][k] - lambda;
+            const double n = above > 0 ? f->linear[k] / (2 * above) : 0;
+            square += n * n;
+            slope += n == 0 ? 0 : n * n / above;
+        }
+        const double next = lambda - square * (sqrt(square) - 1) / slope;
+        if (!(next < lambda)) /* or NaN, if n is 0 */
+            break;
+        lambda = next;
     }
-    return sqrt(sum) - 1;
+    return lambda;
 }
 
 /* Returns the least value on the sphere. By Lagrange, (A - lambda) n = -linear/2 with |n| = 1; of
@@ -72,88 +86,125 @@ static double quadratic_minimum(quadratic f) {
         for (int p = 0; p < 2; p++)
             for (int q = p + 1; q < 3; q++)
                 annihilate(&f, p, q);
-    const double least = fmin(fmin(f.a[0][0], f.a[1][1]), f.a[2][2]);
-    const double length =
-        sqrt(f.linear[0] * f.linear[0] + f.linear[1] * f.linear[1] + f.linear[2] * f.linear[2]);
-    double low = least - length / 2, high = least; /* |n| <= 1 at low; it grows with lambda */
-    for (int step = 0; step < 200 && low < high; step++) {
-        const double middle = (low + high) / 2;
-        if (middle <= low || middle >= high)
-            break;
-        if (excess(&f, middle) < 0)
-            low = middle;
-        else
-            high = middle;
-    }
-    double value = f.constant + low;
+    const double lambda = find_lambda(&f);
+    double value = f.constant + lambda;
     for (int k = 0; k < 3; k++)
-        if (f.linear[k] != 0 && f.a[k][k] > low)
-            value -= f.linear[k] * f.linear[k] / (4 * (f.a[k][k] - low));
+        if (f.a[k][k] > lambda)
+            value -= f.linear[k] * f.linear[k] / (4 * (f.a[k][k] - lambda));
     return value;
 }
 
 float lmp_probe_minimum(int bands, const float *sh) {
+    static const double ones[3] = { 1, 1, 1 };
     assert(bands >= 1 && bands <= 3);
-    return (float)quadratic_minimum(quadratic_of(bands, sh));
+    return (float)quadratic_minimum(quadratic_of(bands, sh, ones));
 }
 
 /* --- the window ------------------------------------------------------------------------------- */
 
-static void set_weights(int bands, double mu, float *weights) {
-    for (int l = 0; l < bands; l++) {
-        const double eigenvalue = (double)l * (l + 1);
-        weights[l] = (float)(1 / (1 + mu * eigenvalue * eigenvalue));
-    }
+/* Returns 1 / (1 + mu l² (l+1)²), where mu is given by its value for l = 1, `first`: 1 is no
+ * window, and 0 leaves the mean alone. */
+static double weight_of(int l, double first) {
+    const double ratio = (double)l * (l + 1) / 2;
+    return l == 0 ? 1 : first / (first + ratio * ratio * (1 - first));
 }
 
-/* Whether the windowed series is positive at 2n rings of 4n directions. */
-static bool positive_on_grid(int bands, const float *windowed) {
+/* A function under a window: its least value, or its value in one direction. */
+typedef struct windowed {
+    int bands;
+    const float *sh;     /* of up to three bands, or NULL */
+    const double *parts; /* the bands' values in one direction */
+} windowed;
+
+static double value_of(const windowed *f, double first) {
+    double weights[3], sum = 0;
+    if (!f->sh) {
+        for (int l = 0; l < f->bands; l++)
+            sum += weight_of(l, first) * f->parts[l];
+        return sum;
+    }
+    for (int l = 0; l < f->bands; l++)
+        weights[l] = weight_of(l, first);
+    return quadratic_minimum(quadratic_of(f->bands, f->sh, weights));
+}
+
+/* Returns the weakest window from `first` on under which a function whose mean is positive is not
+ * negative, by the Illinois method: of a false position whose side stays, half the value counts. */
+static double strengthen(const windowed *f, double first) {
+    double good = 0, bad = first, bad_value = value_of(f, first);
+    if (bad_value >= 0)
+        return first;
+    double good_value = value_of(f, 0);
+    int side = 0;
+    for (int step = 0; step < 60 && good_value > 0 && bad - good > 1e-10; step++) {
+        const double at = (bad * good_value - good * bad_value) / (good_value - bad_value);
+        const double value = value_of(f, at);
+        if (value >= 0) {
+            good = at;
+            good_value = value;
+            bad_value *= side > 0 ? 0.5 : 1;
+        } else {
+            bad = at;
+            bad_value = value;
+            good_value *= side < 0 ? 0.5 : 1;
+        }
+        side = value >= 0 ? 1 : -1;
+    }
+    return good;
+}
+
+/* Strengthens a window until no function of up to three bands is negative anywhere. */
+static double strengthen_whole(int bands, const float *sh, size_t planes, double first) {
+    for (size_t plane = 0; plane < planes; plane++) {
+        const float *f = sh + plane * LMP_SH_COUNT(bands);
+        if (f[0] > 0)
+            first = strengthen(&(windowed) { .bands = bands, .sh = f }, first);
+    }
+    return first;
+}
+
+/* Strengthens a window until no function is negative in a direction of the given basis. */
+static double strengthen_toward(int bands, const float *sh, size_t planes, const float *basis,
+                                double first) {
+    for (size_t plane = 0; plane < planes; plane++) {
+        const float *f = sh + plane * LMP_SH_COUNT(bands);
+        double parts[LMP_PROBE_POSITIVE_BANDS_MAX] = { 0 };
+        if (!(f[0] > 0))
+            continue;
+        for (int l = 0; l < bands; l++)
+            for (int i = l * l; i < (l + 1) * (l + 1); i++)
+                parts[l] += (double)(f[i] * basis[i]);
+        first = strengthen(&(windowed) { .bands = bands, .parts = parts }, first);
+    }
+    return first;
+}
+
+/* Strengthens a window until no function is negative at 2n rings of 4n directions. */
+static double strengthen_on_grid(int bands, const float *sh, size_t planes, double first) {
+    float basis[LMP_SH_COUNT(LMP_PROBE_POSITIVE_BANDS_MAX)];
     for (int i = 0; i < 2 * bands; i++) {
         const double z = cos(pi * (i + 0.5) / (2 * bands)), radius = sqrt((1 - z) * (1 + z));
         for (int j = 0; j < 4 * bands; j++) {
             const double phi = 2 * pi * (j + 0.5) / (4 * bands);
             const lmp_vec3 w = { (float)(radius * cos(phi)), (float)(radius * sin(phi)), (float)z };
-            if (!(lmp_sh_reconstruct(bands, windowed, w) >= 0))
-                return false;
+            lmp_sh_eval(bands, w, basis);
+            first = strengthen_toward(bands, sh, planes, basis, first);
         }
     }
-    return true;
-}
-
-/* Whether all functions whose mean is positive stay positive under the window. */
-static bool all_positive(int bands, const float *sh, size_t planes, const float *weights) {
-    for (size_t plane = 0; plane < planes; plane++) {
-        const float *f = sh + plane * LMP_SH_COUNT(bands);
-        float windowed[LMP_SH_COUNT(LMP_PROBE_POSITIVE_BANDS_MAX)];
-        if (!(f[0] > 0))
-            continue;
-        lmp_sh_apply_window(bands, weights, f, windowed);
-        if (bands <= 3 ? lmp_probe_minimum(bands, windowed) < 0
-                       : !positive_on_grid(bands, windowed))
-            return false;
-    }
-    return true;
+    return first;
 }
 
 void lmp_probe_make_positive_window(int bands, const float *sh, size_t planes, float *weights) {
     assert(bands >= 1 && bands <= LMP_PROBE_POSITIVE_BANDS_MAX);
     assert(planes >= 1);
     assert(lmpi_are_apart(sh, planes * LMP_SH_COUNT(bands), weights, (size_t)bands));
-    set_weights(bands, 0, weights);
-    if (all_positive(bands, sh, planes, weights))
-        return;
-    double low = 1e-9, high = 1e-9; /* bracket, then bisect in equal ratios */
+    double first = 1, before;
+    /* A stronger window may make another direction negative, where bands cancelled each other. */
     do {
-        high *= 16;
-        set_weights(bands, high, weights);
-    } while (high < 1e12 && !all_positive(bands, sh, planes, weights));
-    for (int step = 0; step < 40; step++) {
-        const double middle = sqrt(low * high);
-        set_weights(bands, middle, weights);
-        if (all_positive(bands, sh, planes, weights))
-            high = middle;
-        else
-            low = middle;
-    }
-    set_weights(bands, high, weights);
+        before = first;
+        first = bands <= 3 ? strengthen_whole(bands, sh, planes, first)
+                           : strengthen_on_grid(bands, sh, planes, first);
+    } while (first < before);
+    for (int l = 0; l < bands; l++)
+        weights[l] = (float)weight_of(l, first);
 }
