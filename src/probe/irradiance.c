@@ -2,6 +2,7 @@
 #include "src/base/precondition.h"
 #include "src/kernels/batch.h"
 #include "src/kernels/dispatch.h"
+#include "src/sh/column.h"
 
 #include <lampion/probe.h>
 
@@ -22,11 +23,55 @@ void lmp_probe_irradiance_n(int bands, const float *sh, lmp_vec3_array normals, 
     }
 }
 
-lmp_rgb lmp_probe_irradiance(int bands, const float *sh, lmp_vec3 normal) {
-    lmp_rgb rgb;
-    lmp_probe_irradiance_n(bands, sh, lmp_vec3_array_same(&normal), 1, lmp_rgb_array_of(&rgb));
-    return rgb;
+/* --- one normal ------------------------------------------------------------------------------- */
+
+/* lmp_lobe_make_diffuse of few bands. */
+static const float few_lambda[LMPI_FEW_BANDS] = { 3.14159265f, 2.09439510f,   0.785398163f,
+                                                  0,           -0.130899694f, 0 };
+
+/* Does what the kernel does in each of its lanes, in the same order for the same bits. It is
+ * straight-line code, because `bands` is a constant. */
+LMPI_INLINE void straight_irradiance(int bands, const float *sh, lmp_vec3 normal, float rgb[3]) {
+    lmpi_azimuth azimuth = { 1, 0 };
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    LMPI_UNROLL for (int m = 0; m < bands; m++) {
+        float before = 0, q = lmpi_table_diagonal[m], cosine[3] = { 0 }, sine[3] = { 0 };
+        LMPI_UNROLL for (int l = m; l < bands; l++) {
+            if (l > m) {
+                const size_t i = lmpi_table_index(l, m);
+                const float next = lmpi_table_a[i] * normal.z * q + lmpi_table_b[i] * before;
+                before = q;
+                q = next;
+            }
+            if (few_lambda[l] == 0)
+                continue;
+            const float value = q * few_lambda[l];
+            LMPI_UNROLL for (int c = 0; c < 3; c++) {
+                const float *plane = sh + c * bands * bands;
+                cosine[c] += plane[LMP_SH_INDEX(l, m)] * value;
+                if (m > 0)
+                    sine[c] += plane[LMP_SH_INDEX(l, -m)] * value;
+            }
+        }
+        LMPI_UNROLL for (int c = 0; c < 3; c++) rgb[c] +=
+            m > 0 ? cosine[c] * azimuth.c + sine[c] * azimuth.s : cosine[c];
+        azimuth = lmpi_azimuth_next(azimuth, normal);
+    }
 }
+
+lmp_rgb lmp_probe_irradiance(int bands, const float *sh, lmp_vec3 normal) {
+    assert(lmpi_is_bands(bands) && lmpi_is_unit(normal));
+    float rgb[3];
+    switch (bands) {
+        LMPI_FEW_CASES(straight_irradiance, sh, normal, rgb)
+    default:
+        lmp_probe_irradiance_n(bands, sh, lmp_vec3_array_same(&normal), 1,
+                               (lmp_rgb_array) { rgb, 0 });
+    }
+    return (lmp_rgb) { rgb[0], rgb[1], rgb[2] };
+}
+
+/* --- constants for shaders -------------------------------------------------------------------- */
 
 void lmp_probe_make_constants(int bands, float scale, const float *sh,
                               lmp_probe_constants *constants) {
