@@ -9,14 +9,17 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Returns a convention's basis function relative to this library's, and so its coefficient. */
-static double factor(const lmp_probe_convention *convention, int l, int m) {
-    double value = convention->sign == LMP_PROBE_SIGN_POSITIVE && m % 2 != 0 ? -1 : 1;
-    if (convention->normalization == LMP_PROBE_N3D)
-        value *= sqrt(4 * pi);
-    if (convention->normalization == LMP_PROBE_SN3D)
-        value *= sqrt(4 * pi / (2 * l + 1));
-    return value;
+/* Returns a convention's basis functions of even order m relative to this library's, and so their
+ * coefficients. */
+static double factor(const lmp_probe_convention *convention, int l) {
+    return convention->normalization == LMP_PROBE_N3D    ? sqrt(4 * pi)
+           : convention->normalization == LMP_PROBE_SN3D ? sqrt(4 * pi / (2 * l + 1))
+                                                         : 1;
+}
+
+/* Returns the same of odd order, relative to even order. */
+static double odd_sign(const lmp_probe_convention *convention) {
+    return convention->sign == LMP_PROBE_SIGN_POSITIVE ? -1 : 1;
 }
 
 /* --- axes ------------------------------------------------------------------------------------- */
@@ -49,8 +52,7 @@ static void mirror_z(int bands, float *sh) {
 static void change_axes(int bands, int m[3][3], float *sh) {
     static const int unchanged[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
     const bool mirrored = determinant(m) < 0;
-    float inverse[9], matrices[LMP_SH_ROTATION_COUNT(LMP_PROBE_AXES_BANDS_MAX)];
-    float rotated[LMP_SH_COUNT(LMP_PROBE_AXES_BANDS_MAX)];
+    float inverse[9], rotated[LMP_SH_COUNT(LMP_PROBE_AXES_BANDS_MAX)];
     if (memcmp(m, unchanged, sizeof unchanged) == 0)
         return;
     assert(bands <= LMP_PROBE_AXES_BANDS_MAX);
@@ -58,14 +60,20 @@ static void change_axes(int bands, int m[3][3], float *sh) {
         for (int column = 0; column < 3; column++)
             inverse[3 * column + row] =
                 (float)(mirrored && column == 2 ? -m[row][column] : m[row][column]);
-    lmp_sh_make_rotation_from_matrix(bands, inverse, matrices);
-    lmp_sh_rotate(bands, matrices, sh, rotated);
+    lmp_sh_rotate_by_matrix(bands, inverse, sh, rotated);
     memcpy(sh, rotated, LMP_SH_COUNT(bands) * sizeof *sh);
     if (mirrored)
         mirror_z(bands, sh);
 }
 
 /* --- conversion ------------------------------------------------------------------------------- */
+
+/* Multiplies a band, and once more its odd orders. */
+static void scale_band(int l, double even, double odd, const float *from, float *to) {
+    const int middle = l * l + l;
+    for (int i = middle - l; i <= middle + l; i++)
+        to[i] = (float)((double)from[i] * ((i - middle) % 2 != 0 ? even * odd : even));
+}
 
 void lmp_probe_convert(int bands, const lmp_probe_convention *from, const lmp_probe_convention *to,
                        const float *sh, float *converted) {
@@ -80,14 +88,10 @@ void lmp_probe_convert(int bands, const lmp_probe_convention *from, const lmp_pr
                 change[row][column] += a[row][k] * b[column][k];
     assert(determinant(change) != 0);
     for (int l = 0; l < bands; l++)
-        for (int m = -l; m <= l; m++)
-            converted[LMP_SH_INDEX(l, m)] =
-                (float)((double)sh[LMP_SH_INDEX(l, m)] / factor(from, l, m));
+        scale_band(l, 1 / factor(from, l), odd_sign(from), sh, converted);
     change_axes(bands, change, converted);
     for (int l = 0; l < bands; l++)
-        for (int m = -l; m <= l; m++)
-            converted[LMP_SH_INDEX(l, m)] =
-                (float)((double)converted[LMP_SH_INDEX(l, m)] * factor(to, l, m));
+        scale_band(l, factor(to, l), odd_sign(to), converted, converted);
 }
 
 static bool agrees(int bands, const lmp_probe_convention *convention, const float *ours,
@@ -101,7 +105,8 @@ static bool agrees(int bands, const lmp_probe_convention *convention, const floa
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++) {
             const size_t i = LMP_SH_INDEX(l, m);
-            const double error = (double)theirs[i] - factor(convention, l, m) * (double)ours[i];
+            const double sign = m % 2 != 0 ? odd_sign(convention) : 1;
+            const double error = (double)theirs[i] - sign * factor(convention, l) * (double)ours[i];
             if (!(fabs(error) <= (double)tolerance * largest))
                 return false;
         }
