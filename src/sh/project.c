@@ -66,18 +66,21 @@ static void project(int bands, int nodes, const sampled *f, float *sh) {
     assert(nodes >= 0);
     if (nodes == 0)
         nodes = bands;
+    const double step = pi / nodes, step_c = cos(step), step_s = sin(step);
     memset(sh, 0, (size_t)f->channels * plane * sizeof *sh);
     for (int i = 0; i < nodes; i++) {
         double cosine[3][LMP_BANDS_MAX] = { 0 }, sine[3][LMP_BANDS_MAX] = { 0 }, z, weight;
         lmpi_gauss_legendre(nodes, i, &z, &weight);
         const double radius = sqrt((1 - z) * (1 + z));
+        double c = cos(step / 2), s = sin(step / 2); /* of the azimuth step (j + 1/2) */
         for (int j = 0; j < 2 * nodes; j++) {
-            const double c = cos(pi * (j + 0.5) / nodes), s = sin(pi * (j + 0.5) / nodes);
             float value[3];
             sample(f, (lmp_vec3) { (float)(radius * c), (float)(radius * s), (float)z }, value);
             for (int k = 0; k < f->channels; k++)
-                add_azimuth(bands, c, s, (double)value[k] * weight * pi / nodes, cosine[k],
-                            sine[k]);
+                add_azimuth(bands, c, s, (double)value[k] * weight * step, cosine[k], sine[k]);
+            const double turned = c * step_c - s * step_s;
+            s = s * step_c + c * step_s;
+            c = turned;
         }
         for (int k = 0; k < f->channels; k++)
             add_ring(bands, z, radius, cosine[k], sine[k], sh + (size_t)k * plane);
