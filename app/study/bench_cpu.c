@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion bench cpu - what the batch kernels cost (docs/benchmarks.md). */
-#include "app/base/choice.h"
 #include "app/base/timing.h"
 #include "app/study/bench.h"
 #include "app/study/bench_inputs.h"
@@ -33,8 +32,9 @@ typedef struct measurement {
 } measurement;
 
 const char *const *bench_kernel_names(void) {
-    static const char *names[BENCH_KERNELS + 2] = { "all" };
-    choice_names(&bench_kernels[0].name, sizeof *bench_kernels, BENCH_KERNELS, names + 1);
+    static const char *names[BENCH_ROWS + 2] = { "all" };
+    for (int row = 0; row < BENCH_ROWS; row++)
+        names[1 + row] = bench_row(row)->name;
     return names;
 }
 
@@ -90,7 +90,8 @@ static measurement measure(const bench_kernel *kernel, const bench_batch *b, uns
     static double ns[RUNS_MAX], fraction[RUNS_MAX], stores[RUNS_MAX];
     const size_t written = b->count * kernel->values(b->bands);
     const double pairs = (double)b->count * kernel->lights;
-    const double lanes = flag == LMP_CPU_AVX512   ? 16
+    const double lanes = kernel->call             ? 1
+                         : flag == LMP_CPU_AVX512 ? 16
                          : flag == LMP_CPU_AVX2   ? 8
                          : flag == LMP_CPU_VECTOR ? 4
                                                   : 1;
@@ -156,15 +157,16 @@ static void measure_batch(const bench_options *o, const bench_kernel *kernel, co
                           bool *first) {
     const int runs = o->full ? 301 : 31;
     const double paper = kernel->paper ? measure_paper(kernel, b, o->full ? 31 : 5) : 0;
+    const unsigned all = (unsigned)o->mask & lmp_cpu_flags();
     double scalar = 0;
     for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
-        if (!(flag & (unsigned)o->mask & lmp_cpu_flags()))
+        if (!(flag & all) || (kernel->call && 2 * flag <= all))
             continue;
         lmp_cpu_limit(flag);
         measurement m = measure(kernel, b, flag, flag == LMP_CPU_SCALAR && !o->full ? 7 : runs);
         m.isa = lmp_cpu_name();
         m.vs_paper = paper / m.ns.median;
-        scalar = flag == LMP_CPU_SCALAR ? m.ns.median : scalar;
+        scalar = flag == LMP_CPU_SCALAR && !kernel->call ? m.ns.median : scalar;
         m.vs_scalar = scalar / m.ns.median;
         print_row(o, *first, kernel, b, &m);
         *first = false;
@@ -201,9 +203,9 @@ static bool measure_large(const bench_options *o, bench_inputs *in, const bench_
 static bool measure_kernels(const bench_options *o, bench_inputs *in) {
     const int *bands = o->bands ? &o->bands : bands_timed;
     bool first = true, ok = true;
-    for (int k = 0; k < BENCH_KERNELS; k++)
-        for (int n = 0; wanted(o, k) && n < (o->bands ? 1 : BANDS_TIMED); n++) {
-            const bench_kernel *kernel = &bench_kernels[k];
+    for (int row = 0; row < BENCH_ROWS; row++)
+        for (int n = 0; wanted(o, row) && n < (o->bands ? 1 : BANDS_TIMED); n++) {
+            const bench_kernel *kernel = bench_row(row);
             if (!measured_at(o, kernel, bands[n]))
                 continue;
             ok = ok && bench_tables_create(kernel->table, bands[n], in);

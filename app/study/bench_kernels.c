@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/study/bench_kernels.h"
+#include "app/study/bench_slots.h"
 
 /* --- the batch functions ---------------------------------------------------------------------- */
 
@@ -175,47 +176,22 @@ static size_t values_lobe(int n) {
     return 3;
 }
 
-/* Count bands past the second; entries (l, m) with m >= 0; and steps of their recurrences. */
-static double later(int n) {
-    return n > 2 ? n - 2 : 0;
-}
-static double entries(int n) {
-    return n * (n + 1) / 2.0;
-}
-static double steps(int n) {
-    return n * (n - 1) / 2.0;
-}
-static double slots_basis(int n) {
-    /* per column: 2 for its first step, 4 for each later one, times C_m and S_m; C_m and S_m take
-     * 6 */
-    return 2 * (n - 1) + 4 * (steps(n) - (n - 1)) + 2 * steps(n) + 6 * later(n);
-}
 static double slots_basis_gradient(int n) {
     /* q_l^m; two slopes and three products per (l, m); 11 per value, and those of m = 0 once */
-    return 4 * steps(n) + 6 * later(n) + 5 * entries(n) + 12.0 * n * n;
-}
-/* Counts a column's step, lambda_l, and three channels of its cosine and sine; for a diffuse lobe
- * every other lambda_l vanishes. */
-static double slots_irradiance(int n) {
-    return 4 * steps(n) + 6 * later(n) + (1 + 12) * entries(n) / 2 + 12.0 * n;
+    return 4 * bench_steps(n) + 6 * bench_later(n) + 5 * bench_entries(n) + 12.0 * n * n;
 }
 /* Counts three GGX lobes in addition, whose factors are all used. */
 static double slots_shade_environment(int n) {
-    const double phong = 4 * steps(n) + 6 * later(n) + (1 + 12) * entries(n) + 12.0 * n + 10.0 * n;
-    return slots_irradiance(n) + 3 * phong;
+    const double phong =
+        4 * bench_steps(n) + 6 * bench_later(n) + (1 + 12) * bench_entries(n) + 12.0 * n + 10.0 * n;
+    return bench_slots_irradiance(n) + 3 * phong;
 }
 static double slots_dot(int n) {
     return 2.0 * n * n + 15;
 }
-static double slots_rotate(int n) {
-    double slots = 0;
-    for (int side = 1; side < 2 * n; side += 2)
-        slots += side * (2.0 * side - 1);
-    return slots;
-}
 /* Counts four products and two sums per pair of coefficients. */
 static double slots_rotate_z(int n) {
-    return 6 * steps(n);
+    return 6 * bench_steps(n);
 }
 /* Counts the table's triples, fifteen operations each. */
 static double slots_product(int n) {
@@ -225,26 +201,27 @@ static double slots_product(int n) {
 /* Counts C_m and S_m, recomputed every three orders; q_l^m; three channels of cosine and sine per
  * (l, m). */
 static double slots_image(int n) {
-    return n * (double)n + 6 * later(n) + 4 * steps(n) + 14 * entries(n);
+    return n * (double)n + 6 * bench_later(n) + 4 * bench_steps(n) + 14 * bench_entries(n);
 }
 static double slots_zonal(int n) {
-    return 14 + 5 * later(n) + n;
+    return 14 + 5 * bench_later(n) + n;
 }
 static double slots_project(int n) {
-    return 24 + 5 * later(n) + slots_basis(n) + entries(n);
+    return 24 + 5 * bench_later(n) + bench_slots_basis(n) + bench_entries(n);
 }
 static double slots_accumulate(int n) {
-    return 24 + 11 * later(n) + 6 * n + entries(n) + 6 * n + 12 * steps(n) + 3 * steps(n) +
-           3.0 * n * n / BENCH_LIGHTS;
+    return 24 + 11 * bench_later(n) + 6 * n + bench_entries(n) + 6 * n + 12 * bench_steps(n) +
+           3 * bench_steps(n) + 3.0 * n * n / BENCH_LIGHTS;
 }
 static double slots_pack_half(int n) {
     return 3.0 * n * n;
 }
 static double slots_gradient(int n) {
-    return 29 + 16 * later(n) + 5 + 8 * n + 4 * steps(n) + 11 * entries(n) + 32 * n + 64 * steps(n);
+    return 29 + 16 * bench_later(n) + 5 + 8 * n + 4 * bench_steps(n) + 11 * bench_entries(n) +
+           32 * n + 64 * bench_steps(n);
 }
 static double slots_lobe(int n) {
-    return 19 + 6 + 2 + (n > 1 ? 3 : 0) + 11 * later(n) + 7;
+    return 19 + 6 + 2 + (n > 1 ? 3 : 0) + 11 * bench_later(n) + 7;
 }
 
 /* A cap; its cosines with two axes; three channels of two lobes. */
@@ -252,12 +229,12 @@ enum { SLOTS_CAP = 17, SLOTS_DIRECTION = 12, SLOTS_ACCUMULATE = 12 };
 /* A lobe's cosine, its response and three channels. */
 enum { SLOTS_LOBE = 5 + 3 + 6 };
 static double slots_shade_phong(int n) {
-    return SLOTS_LOBE + 5 + (n <= 48 ? 5 : 6) * later(n);
+    return SLOTS_LOBE + 5 + (n <= 48 ? 5 : 6) * bench_later(n);
 }
 static double slots_shade_zonal(int n) {
     /* R_l, and the diffuse lobe's sum for every other band */
     const double band = n <= 48 ? 3 + 3 : 5 + 3.5;
-    return SLOTS_CAP + 4 + SLOTS_LOBE + 3 + band * later(n) + slots_shade_phong(n);
+    return SLOTS_CAP + 4 + SLOTS_LOBE + 3 + band * bench_later(n) + slots_shade_phong(n);
 }
 static double slots_shade_ggx(int n) {
     return slots_shade_zonal(n) + 2 * slots_shade_phong(n);
@@ -269,7 +246,7 @@ static double slots_shade_ggx(int n) {
  * ends; what the diffuse lobe receives; the solid angle; nodes; a lobe's cosines, then its bands.
  */
 static double slots_shade_rectangle(int n) {
-    return 2 * (40 + 336 + 48 + 42 + 105 + 92 + 144 + 57 * later(n));
+    return 2 * (40 + 336 + 48 + 42 + 105 + 92 + 144 + 57 * bench_later(n));
 }
 static double slots_shade_points(int n) {
     return 2 * (40 + 144 + 42 + 28 + 18.0 * n);
@@ -281,7 +258,8 @@ static double slots_shade_disk(int n) {
     return 2 * (40 + 60 + 42 + 32 * (60 + 12 + 4.5 * n));
 }
 static double slots_shade_tube(int n) {
-    return 2 * (70 + 45 + 2 * 70 + 40 + 110 + 2 * 64 + 2 * 60 + 70 + (34 + 12 * 4.5) * later(n));
+    return 2 *
+           (70 + 45 + 2 * 70 + 40 + 110 + 2 * 64 + 2 * 60 + 70 + (34 + 12 * 4.5) * bench_later(n));
 }
 /* A lookup of floats (products of 16-bit coefficients with their weights are integers):
  * coordinates, weights of two splines, rounding, four rows; before that, an angle. */
@@ -305,8 +283,9 @@ static double slots_field_update(int n) {
     return slots_gradient(n) + 20;
 }
 static double slots_shade_field(int n) {
-    const double phong = 4 * steps(n) + 6 * later(n) + (1 + 12) * entries(n) + 22.0 * n;
-    return 192.0 * n * n + slots_irradiance(n) + phong;
+    const double phong =
+        4 * bench_steps(n) + 6 * bench_later(n) + (1 + 12) * bench_entries(n) + 22.0 * n;
+    return 192.0 * n * n + bench_slots_irradiance(n) + phong;
 }
 
 /* --- the table -------------------------------------------------------------------------------- */
@@ -329,11 +308,11 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
     { "lobe", values_lobe, slots_lobe, run_lobe, bench_paper_lobe, .lights = BENCH_LIGHTS,
       .one_layout = true },
     { "zonal", values_zonal, slots_zonal, run_zonal, bench_paper_zonal, .lights = 1 },
-    { "basis", values_basis, slots_basis, run_basis, bench_paper_basis, .lights = 1,
+    { "basis", values_basis, bench_slots_basis, run_basis, bench_paper_basis, .lights = 1,
       .large = true },
     { "basis-gradient", values_basis_gradient, slots_basis_gradient, run_basis_gradient,
       bench_paper_basis_gradient, .lights = 1 },
-    { "irradiance", values_lobe, slots_irradiance, run_irradiance, bench_paper_irradiance,
+    { "irradiance", values_lobe, bench_slots_irradiance, run_irradiance, bench_paper_irradiance,
       .lights = 1, .one_layout = true },
     { "cubemap", values_lobe, slots_image, run_cubemap, bench_paper_cubemap,
       .lights = 6 * BENCH_CUBE * BENCH_CUBE / BENCH_ELEMENTS_MAX, .one_layout = true },
@@ -344,7 +323,7 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
       .one_layout = true, .bands_max = LMP_SH_FEW_BANDS },
     { "rotate-z", values_basis, slots_rotate_z, run_rotate_z, bench_paper_rotate, .lights = 1,
       .one_layout = true },
-    { "rotate", values_basis, slots_rotate, run_rotate, bench_paper_rotate, .lights = 1 },
+    { "rotate", values_basis, bench_slots_rotate, run_rotate, bench_paper_rotate, .lights = 1 },
     { "pack-half", values_rgb, slots_pack_half, run_pack_half, bench_paper_pack_half, .lights = 1,
       .one_layout = true },
     { "dot", values_basis, slots_dot, run_dot, bench_paper_dot, .lights = 1 },

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* bench_kernels.h - the batch kernels that `lampion bench cpu` times: a new one is a row of
- * bench_kernels.c, which says how it is run and measured, and one more of BENCH_KERNELS. */
+/* bench_kernels.h - what `lampion bench cpu` times: batch kernels, of which a new one is a row of
+ * bench_kernels.c, which says how it is run and measured, and one more of BENCH_KERNELS; and calls
+ * of one element, which are rows of bench_calls.c. */
 #ifndef LAMPION_STUDY_BENCH_KERNELS_H
 #define LAMPION_STUDY_BENCH_KERNELS_H
 
@@ -68,10 +69,16 @@ typedef struct bench_kernel {
     bool ggx;      /* shades glTF's metallic-roughness */
     int bands_max; /* the most that it has; 0: any number */
     bool large;    /* does little but store: measured on large outputs, too */
+    bool call;     /* takes one element, in one lane: measured on the best instruction set alone */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 33 };
-extern const bench_kernel bench_kernels[BENCH_KERNELS];
+enum { BENCH_KERNELS = 33, BENCH_CALLS = 16, BENCH_ROWS = BENCH_KERNELS + BENCH_CALLS };
+extern const bench_kernel bench_kernels[BENCH_KERNELS], bench_calls[BENCH_CALLS];
+
+/* Returns the kernel or the call of a row, kernels first. */
+static inline const bench_kernel *bench_row(int row) {
+    return row < BENCH_KERNELS ? &bench_kernels[row] : &bench_calls[row - BENCH_KERNELS];
+}
 
 /* --- bench_paper.c: elements of the same work by the paper's formulas, one at a time ---------- */
 
