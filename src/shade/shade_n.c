@@ -43,42 +43,56 @@ static void shade_brdf_planes(const shade_chunk *chunk, const lmpi_packed_light 
                                                  ambient, chunk->count, chunk->sums.diffuse);
 }
 
-/* The lights that a kernel takes at once. */
+/* The lights of a call, and as many of them, packed, as a kernel takes at once. */
 typedef struct kernel_lights {
+    const lmp_light *all;
+    size_t all_count;
+    bool any_area;
+    size_t first, next; /* those packed are from `first` up to `next`, without areas */
     size_t count;
     lmpi_packed_light light[LMPI_KERNEL_LIGHTS_MAX];
     lmp_rgb ambient;
 } kernel_lights;
 
-/* Takes as many lights as a kernel does, from `light` on, without areas; returns the next one. */
-static size_t take_lights(const lmp_light *lights, size_t light, size_t count,
-                          kernel_lights *taken) {
-    taken->count = 0;
-    taken->ambient = (lmp_rgb) { 0, 0, 0 };
-    for (; light < count && taken->count < LMPI_KERNEL_LIGHTS_MAX; light++)
-        if (!lmpi_light_is_area(&lights[light]))
-            lmpi_shade_take_light(&lights[light], &taken->light[taken->count++], &taken->ambient);
-    return light;
+static void set_lights(const lmp_light *lights, size_t count, kernel_lights *to) {
+    to->all = lights;
+    to->all_count = count;
+    to->any_area = lmpi_is_any_area(lights, count);
+    to->first = to->next = 0;
+}
+
+/* Packs lights from `first` on, unless they still are: a chunk of surfaces often takes the lights
+ * of the chunk before. */
+static void take_lights(size_t first, kernel_lights *to) {
+    if (to->first == first && to->next > first)
+        return;
+    to->first = first;
+    to->count = 0;
+    to->ambient = (lmp_rgb) { 0, 0, 0 };
+    for (to->next = first; to->next < to->all_count && to->count < LMPI_KERNEL_LIGHTS_MAX;
+         to->next++) {
+        const lmp_light *light = &to->all[to->next];
+        if (!to->any_area || !lmpi_light_is_area(light))
+            lmpi_shade_take_light(light, &to->light[to->count++], &to->ambient);
+    }
 }
 
 /* Shades by the kernels. */
 static void shade_by_kernels(const shade_prepared *prepared, const lmp_surfaces *surfaces,
-                             shade_chunk *chunk, const lmp_light *lights, size_t light_count,
-                             size_t stride, float *rgb) {
+                             shade_chunk *chunk, kernel_lights *lights, size_t stride, float *rgb) {
     lmpi_shade_load_chunk(surfaces, chunk);
-    for (size_t light = 0; light < light_count;) {
-        kernel_lights some;
-        light = take_lights(lights, light, light_count, &some);
+    for (size_t light = 0; light < lights->all_count; light = lights->next) {
+        take_lights(light, lights);
         if (chunk->source.preintegrated)
-            shade_brdf_planes(chunk, some.light, some.count, some.ambient);
+            shade_brdf_planes(chunk, lights->light, lights->count, lights->ambient);
         else
-            prepared->method->lobes_of_chunk(prepared, chunk, some.light, some.count);
-        chunk->ambient[0] += some.ambient.r;
-        chunk->ambient[1] += some.ambient.g;
-        chunk->ambient[2] += some.ambient.b;
+            prepared->method->lobes_of_chunk(prepared, chunk, lights->light, lights->count);
+        chunk->ambient[0] += lights->ambient.r;
+        chunk->ambient[1] += lights->ambient.g;
+        chunk->ambient[2] += lights->ambient.b;
     }
-    if (!chunk->source.preintegrated && lmpi_is_any_area(lights, light_count))
-        lmpi_shade_add_areas(prepared, chunk, lights, light_count);
+    if (!chunk->source.preintegrated && lights->any_area)
+        lmpi_shade_add_areas(prepared, chunk, lights->all, lights->all_count);
     if (chunk->phong_count)
         lmpi_shade_sum_planes(chunk->count, chunk->phong_count, chunk->ambient, &chunk->planes);
     lmpi_shade_store(&chunk->planes, chunk->at, chunk->count, stride, rgb);
@@ -92,6 +106,8 @@ unsigned lmpi_shade_bare_n(const lmp_shade_settings *settings, const lmp_surface
     const shade_method *method = lmpi_shade_method_of(resolved.method);
     shade_prepared prepared = { .method = method, .settings = &resolved };
     shade_chunk chunk;
+    kernel_lights taken;
+    set_lights(lights, light_count, &taken);
     if (method->prepare)
         method->prepare(&resolved, &prepared);
     shade_waiting waiting;
@@ -104,12 +120,12 @@ unsigned lmpi_shade_bare_n(const lmp_shade_settings *settings, const lmp_surface
         lmpi_shade_take_alike(surfaces, method->preintegrated, &waiting, &chunk);
         const bool lobes = chunk.phong_count > 0;
         assert(!lobes || !method->preintegrated || resolved.lobe);
-        assert(!chunk.source.preintegrated || !lmpi_is_any_area(lights, light_count));
+        assert(!chunk.source.preintegrated || !taken.any_area);
         if (chunk.source.table || (lobes && !method->lobes_of_chunk))
             shade_each(&resolved, surfaces, chunk.at, chunk.count, lights, light_count, stride,
                        rgb);
         else
-            shade_by_kernels(&prepared, surfaces, &chunk, lights, light_count, stride, rgb);
+            shade_by_kernels(&prepared, surfaces, &chunk, &taken, stride, rgb);
     }
     return waiting.layer_mask;
 }
