@@ -78,7 +78,8 @@ static void mark_shared(const render_surfaces *first, const float *rgba) {
     }
 }
 
-/* Adds rgba to the sums; if `show`, also sets the image to the mean so far. */
+/* Adds rgba to the sums, unless it is the only sample; if `show`, also sets the image to the mean
+ * so far. */
 static void resolve(cpu_whole *w, const cpu_drawing *d, int index, bool keep, bool show) {
     const render_surfaces *s = keep && index == 0 ? &w->first : &w->surfaces;
     const ptrdiff_t count = (ptrdiff_t)d->frame->width * d->frame->height;
@@ -86,9 +87,10 @@ static void resolve(cpu_whole *w, const cpu_drawing *d, int index, bool keep, bo
     for (ptrdiff_t i = 0; i < count; i++) {
         const float *rgba = w->rgba + 4 * i;
         float *sum = w->sums + 4 * i;
-        if (index == 0)
+        if (index == 0 && keep)
             memset(sum, 0, 4 * sizeof *sum);
-        cpu_add_sample(d->exposure, rgba, cpu_blended(s, (size_t)i), sum);
+        if (keep)
+            cpu_add_sample(d->exposure, rgba, cpu_blended(s, (size_t)i), sum);
         if (show)
             cpu_set_pixel(d->samples, rgba, sum, d->image->rgb + 3 * i);
     }
