@@ -10,7 +10,8 @@ typedef struct kept_light {
 } kept_light;
 
 struct view_moment {
-    int material_count;
+    int hidden_count, material_count;
+    view_range hidden[VIEW_HIDDEN_MAX];
     char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE];
     size_t light_count;
     kept_light lights[];
@@ -22,6 +23,8 @@ static size_t size_of(size_t light_count) {
 
 static bool is_present(const view_moment *m, const view_settings *now, const size_t *numbers) {
     if (m->light_count != now->light_count || m->material_count != now->material_count ||
+        m->hidden_count != now->hidden_count ||
+        memcmp(m->hidden, now->hidden, sizeof m->hidden) != 0 ||
         memcmp(m->materials, now->materials, sizeof m->materials) != 0)
         return false;
     for (size_t i = 0; i < m->light_count; i++)
@@ -52,6 +55,8 @@ void view_history_keep(view_history *h, const view_settings *now, const size_t *
         view_history_clear(h); /* undo must not skip a change that could not be kept */
         return;
     }
+    m->hidden_count = now->hidden_count;
+    memcpy(m->hidden, now->hidden, sizeof m->hidden);
     m->material_count = now->material_count;
     memcpy(m->materials, now->materials, sizeof m->materials);
     m->light_count = now->light_count;
@@ -68,6 +73,8 @@ bool view_history_step(view_history *h, int step, view_settings *now, size_t *nu
         return false;
     const view_moment *m = h->moments[to];
     h->at = to;
+    now->hidden_count = m->hidden_count;
+    memcpy(now->hidden, m->hidden, sizeof m->hidden);
     now->material_count = m->material_count;
     memcpy(now->materials, m->materials, sizeof m->materials);
     memset(now->lights, 0, now->light_count * sizeof *now->lights);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* history.h - what undo restores: the lights at rest, and the replaced materials. */
+/* history.h - what undo restores: the lights at rest, the replaced materials, the hidden nodes. */
 #ifndef LAMPION_VIEW_HISTORY_H
 #define LAMPION_VIEW_HISTORY_H
 
@@ -8,7 +8,7 @@
 #define VIEW_HISTORY_BYTES ((size_t)64 << 20)
 enum { VIEW_HISTORY_MAX = 256 };
 
-/* Lights, their numbers for the animation, and materials at one time. */
+/* Lights, their numbers for the animation, materials and hidden nodes at one time. */
 typedef struct view_moment view_moment;
 
 typedef struct view_history {

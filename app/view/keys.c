@@ -282,7 +282,7 @@ const view_key view_keys[] = {
     { "t", "T", "material of the object pointed at", change_material, 1, "Next material" },
     { "T", NULL, NULL, change_material, -1, "Previous material" },
     { "Enter", "Enter", "values of the light, of materials", view_toggle_panel, 0, "Values" },
-    { "Ctrl+Z", "Ctrl Z  Ctrl Y", "undo, redo lights and materials", view_undo, -1, "Undo" },
+    { "Ctrl+Z", "Ctrl Z  Ctrl Y", "undo, redo lights, materials, hiding", view_undo, -1, "Undo" },
     { "Ctrl+Y", NULL, NULL, view_undo, 1, "Redo" },
 
     { NULL, "Compare", NULL, NULL, 0, NULL },

@@ -173,10 +173,15 @@ bool view_state_replace_scene(view_state *s, const scene *world, view_tree *tree
 }
 
 void view_undo(view_state *s, int step) {
+    view_range hidden[VIEW_HIDDEN_MAX];
+    const int count = s->now.hidden_count;
+    memcpy(hidden, s->now.hidden, sizeof hidden);
     if (!view_history_step(&s->history, step, &s->now, s->numbers)) {
         view_say(s, step < 0 ? "Nothing to undo" : "Nothing was undone");
         return;
     }
+    if (s->now.hidden_count != count || memcmp(hidden, s->now.hidden, sizeof hidden) != 0)
+        s->requests.nodes = true;
     s->lights_edited = true;
     memset(s->muted, 0, sizeof s->muted);
     if (s->selected >= (int)s->now.light_count)

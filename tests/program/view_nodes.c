@@ -151,6 +151,32 @@ static void actions_are_for_what_is_pointed_at(void **unused) {
     assert_int_equal(v.state.now.hidden_count, 0);
 }
 
+/* Hiding, isolating and showing are steps of undo, among those of lights. */
+static void hiding_is_undone(void **unused) {
+    (void)unused;
+    const size_t count = world.instance_count;
+    v.state.node = 0;
+    act("Hide");
+    act("Larger");
+    act("Isolate");
+    act("Show all");
+    assert_int_equal(part->instance_count, count);
+    act("Undo");
+    assert_int_equal(part->instance_count, 1);
+    act("Undo");
+    assert_int_equal(part->instance_count, count - 1);
+    assert_true(view_node_is_hidden(&v.state.now, 0));
+    act("Undo"); /* the light's */
+    assert_true(!v.state.requests.nodes && view_node_is_hidden(&v.state.now, 0));
+    act("Undo");
+    assert_int_equal(part->instance_count, count);
+    act("Redo");
+    act("Redo");
+    act("Redo");
+    assert_int_equal(part->instance_count, 1);
+    assert_false(view_node_is_hidden(&v.state.now, 0));
+}
+
 static void a_node_is_selected_in_the_list_and_framed(void **unused) {
     (void)unused;
     char item[SCENE_NAME_SIZE + 48];
@@ -188,9 +214,13 @@ static void a_node_is_selected_in_the_list_and_framed(void **unused) {
 int main(void) {
 #define NODES(test) cmocka_unit_test_setup_teardown(test, open_viewer, close_nodes)
     const struct CMUnitTest tests[] = {
-        NODES(ranges_say_which_nodes_are_hidden),  NODES(ranges_that_are_none_are_refused),
-        NODES(hidden_nodes_are_not_pointed_at),    NODES(nodes_keep_their_numbers),
-        NODES(actions_are_for_what_is_pointed_at), NODES(a_node_is_selected_in_the_list_and_framed),
+        NODES(ranges_say_which_nodes_are_hidden),
+        NODES(ranges_that_are_none_are_refused),
+        NODES(hidden_nodes_are_not_pointed_at),
+        NODES(nodes_keep_their_numbers),
+        NODES(actions_are_for_what_is_pointed_at),
+        NODES(a_node_is_selected_in_the_list_and_framed),
+        NODES(hiding_is_undone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
