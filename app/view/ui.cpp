@@ -333,6 +333,7 @@ bool ui_button(const char *name, const char *tip, bool on) {
         window->DC.CursorPosPrevLine.x + style.ItemSpacing.x + needed < window->WorkRect.Max.x)
         ImGui::SameLine();
     spell(name);
+    spell(tip);
     if (on)
         ImGui::PushStyleColor(ImGuiCol_Button, style.Colors[ImGuiCol_ButtonActive]);
     const bool pressed = ImGui::Button(name);
