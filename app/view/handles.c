@@ -5,6 +5,7 @@
 #include "app/view/lights.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* Lengths in pixels at 96 per inch. */
 #define GAP         34.0f  /* from the light to its arrows, so that itself can be dragged, too */
@@ -473,23 +474,33 @@ static float rounded(float value, float step) {
     return step * roundf(value / step);
 }
 
+/* Whether a handle moves along an axis of the world. */
+static bool moves_along(view_handle_kind handle, unsigned axis) {
+    return handle < VIEW_HANDLE_YZ ? handle == VIEW_HANDLE_X + axis
+                                   : handle != VIEW_HANDLE_YZ + axis;
+}
+
 /* Rounds coordinates of the world, of those that the handle moves along. */
 static void round_position(const view_state *s, lmp_vec3 *position) {
-    const view_handle_kind handle = s->grip.handle;
     const double step = view_handle_step(s);
-    for (int k = 0; k < 3; k++) {
-        const bool moves = handle < VIEW_HANDLE_YZ ? handle == VIEW_HANDLE_X + (unsigned)k
-                                                   : handle != VIEW_HANDLE_YZ + (unsigned)k;
+    for (unsigned k = 0; k < 3; k++) {
         const double world = s->now.origin[k] + (double)(&position->x)[k];
-        if (moves)
+        if (moves_along(s->grip.handle, k))
             (&position->x)[k] = (float)(step * round(world / step) - s->now.origin[k]);
     }
 }
 
-/* Rounds a direction's angles above the horizon and around it. */
+/* Finds a direction's angles above the horizon and around it. */
+static void find_angles(lmp_vec3 d, float *up, float *around) {
+    *up = asinf(fminf(fmaxf(d.y, -1), 1));
+    *around = atan2f(d.z, d.x);
+}
+
 static lmp_vec3 round_direction(lmp_vec3 d) {
-    const float up = rounded(asinf(fminf(fmaxf(d.y, -1), 1)), STEP_ANGLE);
-    const float around = rounded(atan2f(d.z, d.x), STEP_ANGLE);
+    float up, around;
+    find_angles(d, &up, &around);
+    up = rounded(up, STEP_ANGLE);
+    around = rounded(around, STEP_ANGLE);
     return vec(cosf(up) * cosf(around), sinf(up), cosf(up) * sinf(around));
 }
 
@@ -538,4 +549,46 @@ void view_handle_follow(view_state *s) {
         return;
     s->now.lights[s->selected] = changed;
     s->lights_edited = true;
+}
+
+/* --- what it tells ---------------------------------------------------------------------------- */
+
+static double degrees(float radians) {
+    return (double)radians * 180 / (double)PI;
+}
+
+/* Describes how far the light was moved, along each axis: "x +0.25". */
+static void describe_move(const view_state *s, const lmp_light *light, char *text, size_t size) {
+    const lmp_vec3 by = vec_sub(light->position, s->grabbed.emitter.position);
+    size_t used = 0;
+    for (unsigned k = 0; k < 3; k++)
+        if (moves_along(s->grip.handle, k))
+            used += (size_t)snprintf(text + used, size - used, "%s%c %+.3g", used ? ", " : "",
+                                     "xyz"[k], (double)(&by.x)[k]);
+}
+
+void view_handle_describe(const view_state *s, char *text, size_t size) {
+    const lmp_light *light = &s->now.lights[s->selected].emitter;
+    const view_handle_kind handle = s->grip.handle;
+    const bool is_round = scene_light_members_of(light, SCENE_LIGHT_RADIUS) > 0;
+    const bool is_long = scene_light_members_of(light, SCENE_LIGHT_EXTENT) > 0;
+    const float value = value_of(light, handle);
+    float up, around;
+    if (is_move(handle)) {
+        describe_move(s, light, text, size);
+    } else if (handle == VIEW_HANDLE_DIRECTION) {
+        find_angles(scene_light_axis(light), &up, &around);
+        snprintf(text, size, "elevation %.1f°, azimuth %.1f°", degrees(up), degrees(around));
+    } else if (is_angle(handle)) {
+        snprintf(text, size, "%s %.1f°", view_handle_names[handle], degrees(value));
+    } else if (handle == VIEW_HANDLE_RADIUS ||
+               (handle == VIEW_HANDLE_SIZE && is_round && !is_long)) {
+        snprintf(text, size, "radius %.3g", (double)value);
+    } else if (handle == VIEW_HANDLE_SIZE) {
+        snprintf(text, size, "size × %.3g",
+                 (double)(value / value_of(&s->grabbed.emitter, handle)));
+    } else {
+        snprintf(text, size, "%s %.3g", is_round ? "length" : view_handle_names[handle],
+                 2 * (double)value);
+    }
 }

@@ -37,6 +37,9 @@ bool view_handle_begin(view_state *state);
 /* Follows the pointer; while Ctrl is held, by steps. */
 void view_handle_follow(view_state *state);
 
+/* Describes what the dragged handle has done: "x +0.25", "radius 0.3", "outer 35.0°". */
+void view_handle_describe(const view_state *state, char *text, size_t size);
+
 /* Returns the length by which Ctrl lets positions and sizes change: a tenth of the power of ten
  * that is nearest to a tenth of the scene's diagonal. */
 double view_handle_step(const view_state *state);

@@ -139,6 +139,18 @@ static void draw_handles(const view_state *s, bool covered) {
     }
 }
 
+/* Tells beside the pointer what the drag of a handle does. */
+static void draw_drag(const view_state *s) {
+    const bool is_right = s->x > 0.5 * s->now.width;
+    const double gap = 20 * s->scale;
+    char text[64];
+    if (s->drag != VIEW_DRAG_HANDLE)
+        return;
+    view_handle_describe(s, text, sizeof text);
+    view_draw_message(text, s->now.width, s->x + (is_right ? -gap : gap), fmax(s->y, 2 * gap),
+                      is_right);
+}
+
 /* Draws the panel of values, its upper right corner at x, y. */
 static void draw_values(const viewer *v, double x, double y) {
     view_row rows[VIEW_PANEL_ROWS];
@@ -156,8 +168,10 @@ void view_lay_out(viewer *v, const char *announcement, bool fresh) {
     take_statistics(v, fresh);
     ui_begin(width, height, scale, v->clock - v->laid_at);
     v->laid_at = v->clock;
-    if (!v->state.help)
+    if (!v->state.help) {
         draw_handles(&v->state, covered);
+        draw_drag(&v->state);
+    }
     if (v->state.overlay && !v->state.help) {
         draw_sides(v, scale);
         view_draw_rows(rows, fill_statistics(v, rows), 12 * scale, 12 * scale, 0);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The viewer's panel of values, its undo, and files that are opened. */
+/* The viewer's panel of values, its undo, files that are opened, and what a drag tells. */
 #include "app/scene/space.h"
 #include "app/scene/vector.h"
+#include "app/view/handles.h"
 #include "app/view/panel.h"
 #include "tests/program/folder.h"
 #include "tests/program/view.h"
@@ -322,6 +323,52 @@ static void inside_a_building_the_left_button_looks_around(void **unused) {
     scene_free(&atrium);
 }
 
+/* --- what a drag tells ------------------------------------------------------------------------ */
+
+static void a_drag_tells_its_number(void **unused) {
+    (void)unused;
+    static const struct {
+        lmp_light_kind kind;
+        view_handle_kind handle;
+        const char *told;
+    } drags[] = {
+        { LMP_LIGHT_SPHERE, VIEW_HANDLE_Y, "y +0.5" },
+        { LMP_LIGHT_SPHERE, VIEW_HANDLE_YZ, "y +0.5, z -0.25" },
+        { LMP_LIGHT_SPHERE, VIEW_HANDLE_SIZE, "radius 0.5" },
+        { LMP_LIGHT_TUBE, VIEW_HANDLE_RADIUS, "radius 0.5" },
+        { LMP_LIGHT_TUBE, VIEW_HANDLE_WIDTH, "length 1.5" },
+        { LMP_LIGHT_RECTANGLE, VIEW_HANDLE_WIDTH, "width 1.5" },
+        { LMP_LIGHT_RECTANGLE, VIEW_HANDLE_HEIGHT, "height 0.75" },
+        { LMP_LIGHT_POLYGON, VIEW_HANDLE_SIZE, "size × 2" },
+        { LMP_LIGHT_SPOT, VIEW_HANDLE_OUTER, "outer 36.0°" },
+        { LMP_LIGHT_CAP, VIEW_HANDLE_ANGLE, "angle 18.0°" },
+        { LMP_LIGHT_DIRECTIONAL, VIEW_HANDLE_DIRECTION, "elevation 30.0°, azimuth 90.0°" },
+    };
+    char text[64];
+    for (size_t i = 0; i < sizeof drags / sizeof *drags; i++) {
+        lmp_light *light = &state.now.lights[0].emitter;
+        *light = scene_light_model(drags[i].kind, 1, 8);
+        light->position = vec(0, 1, 2);
+        state.now.light_count = 1;
+        state.selected = 0;
+        state.grabbed = state.now.lights[0];
+        state.grip.handle = drags[i].handle;
+        light->position = vec(0, 1.5f, 1.75f);
+        light->radius = 0.5f;
+        if (light->kind == LMP_LIGHT_POLYGON) {
+            scene_light_resize(light, 2);
+        } else {
+            light->half[0] = vec(0.75f, 0, 0);
+            light->half[1] = vec(0, 0.375f, 0);
+        }
+        light->outer = 0.2f * PI;
+        light->angle = 0.1f * PI;
+        light->direction = vec(0, 0.5f, sqrtf(0.75f));
+        view_handle_describe(&state, text, sizeof text);
+        assert_string_equal(text, drags[i].told);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(a_light_has_the_values_that_are_typed),
@@ -336,6 +383,7 @@ int main(void) {
         TEST(another_scene_starts_afresh),
         TEST(a_key_sees_a_scene_from_inside_and_from_outside),
         TEST(inside_a_building_the_left_button_looks_around),
+        TEST(a_drag_tells_its_number),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
