@@ -12,6 +12,8 @@ const size_t blob_item_size[BLOB_SECTIONS] = {
     [BLOB_INDICES] = sizeof(uint32_t),
     [BLOB_MESHES] = sizeof(scene_mesh),
     [BLOB_INSTANCES] = sizeof(scene_instance),
+    [BLOB_NODES] = sizeof(scene_node),
+    [BLOB_NAMES] = 1,
     [BLOB_MATERIALS] = sizeof(scene_material),
     [BLOB_VARIANTS] = sizeof(scene_variant),
     [BLOB_TEXTURES] = sizeof(scene_texture),
@@ -88,7 +90,9 @@ static bool header_fits(const blob_header *header, size_t size) {
            header->sections[BLOB_SOURCES].count <= BLOB_SOURCES_MAX &&
            header->sections[BLOB_VERTICES].count < UINT32_MAX &&
            header->sections[BLOB_INDICES].count < UINT32_MAX &&
-           header->sections[BLOB_INSTANCES].count < UINT32_MAX;
+           header->sections[BLOB_INSTANCES].count < UINT32_MAX &&
+           header->sections[BLOB_NODES].count < UINT32_MAX &&
+           header->sections[BLOB_NAMES].count < UINT32_MAX;
 }
 
 static bool all_in_reach(const float *coordinates, size_t count) {
@@ -180,6 +184,38 @@ static bool instances_fit(const blob_header *header) {
             return false;
     }
     return true;
+}
+
+/* Whether a name of a node begins at an offset. */
+static bool name_begins(const blob_header *header, uint32_t offset) {
+    const char *names = blob_items(header, BLOB_NAMES);
+    const uint64_t size = header->sections[BLOB_NAMES].count;
+    char name[SCENE_NAME_SIZE] = "";
+    if (offset >= size || (offset > 0 && names[offset - 1]))
+        return false;
+    memcpy(name, names + offset, size - offset < sizeof name ? size - offset : sizeof name);
+    const char *const end = memchr(name, '\0', sizeof name);
+    if (!end || names[size - 1])
+        return false;
+    memset(name + (end - name), 0, sizeof name - (size_t)(end - name));
+    return name_fits(name);
+}
+
+/* Whether the nodes are a tree, parents first, and hold every instance. */
+static bool nodes_fit(const blob_header *header) {
+    const scene_node *nodes = blob_items(header, BLOB_NODES);
+    const uint64_t count = header->sections[BLOB_NODES].count;
+    const uint64_t instances = header->sections[BLOB_INSTANCES].count;
+    for (uint64_t i = 0; i < count; i++) {
+        const scene_node *node = &nodes[i];
+        const uint64_t bound = node->parent < i ? nodes[node->parent].end : count;
+        if ((node->parent >= i && node->parent != SCENE_NO_NODE) || i >= bound || node->end <= i ||
+            node->end > bound || node->first > instances ||
+            (i > 0 ? node->first < nodes[i - 1].first : node->first > 0) ||
+            (node->name != SCENE_NO_NODE && !name_begins(header, node->name)))
+            return false;
+    }
+    return count > 0 || instances == 0;
 }
 
 static bool use_fits(const scene_texture_use *use, uint64_t texture_count) {
@@ -330,7 +366,7 @@ bool blob_validate(const void *block, size_t size, bool checksum, const char *su
                       header->sections[i].count * blob_item_size[i]);
     if (checksum && (content.low != header->content.low || content.high != header->content.high))
         return base_fail(error, subject, "gave a scene whose checksum is wrong");
-    if (!geometry_fits(header) || !instances_fit(header))
+    if (!geometry_fits(header) || !instances_fit(header) || !nodes_fit(header))
         return base_fail(error, subject, "has invalid vertices or triangles");
     if (!materials_fit(header) || !variants_fit(header))
         return base_fail(error, subject, "has invalid materials or textures");
@@ -379,6 +415,9 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, base_err
     memcpy(lights, blob_items(block, BLOB_LIGHTS),
            header->sections[BLOB_LIGHTS].count * sizeof *lights);
     blob_geometry(block, s);
+    s->nodes = blob_items(block, BLOB_NODES);
+    s->names = blob_items(block, BLOB_NAMES);
+    s->node_count = header->sections[BLOB_NODES].count;
     s->materials = blob_items(block, BLOB_MATERIALS);
     s->variants = blob_items(block, BLOB_VARIANTS);
     s->textures = blob_items(block, BLOB_TEXTURES);

@@ -9,13 +9,15 @@
 #include "app/scene/scene.h"
 
 #define BLOB_MAGIC   "LAMPSCN"
-#define BLOB_VERSION 20u /* raise with any change of the layout or of what the importer makes */
+#define BLOB_VERSION 21u /* raise with any change of the layout or of what the importer makes */
 
 typedef enum blob_section {
     BLOB_VERTICES,
     BLOB_INDICES,
     BLOB_MESHES,
     BLOB_INSTANCES,
+    BLOB_NODES,
+    BLOB_NAMES,
     BLOB_MATERIALS,
     BLOB_VARIANTS,
     BLOB_TEXTURES,

@@ -116,7 +116,40 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
         center_mesh(builder, mesh);
 }
 
+/* Appends a node for the instances to come. */
+static uint32_t append_node(scene_builder *builder, uint32_t name, uint32_t parent) {
+    const uint32_t number = (uint32_t)builder_count(builder, BLOB_NODES);
+    scene_node *node = builder_append(builder, BLOB_NODES, 1);
+    if (node)
+        *node = (scene_node) { .name = name,
+                               .parent = parent,
+                               .end = number + 1,
+                               .first = (uint32_t)builder_count(builder, BLOB_INSTANCES) };
+    return number;
+}
+
+uint32_t builder_node(scene_builder *builder, const char *name, uint32_t parent) {
+    char clean[SCENE_NAME_SIZE];
+    scene_clean_name(clean, name);
+    const size_t size = clean[0] ? strlen(clean) + 1 : 0;
+    const uint32_t at = (uint32_t)builder_count(builder, BLOB_NAMES);
+    char *to = builder_append(builder, BLOB_NAMES, size);
+    if (to)
+        memcpy(to, clean, size);
+    builder->has_tree = true;
+    return append_node(builder, size ? at : SCENE_NO_NODE, parent);
+}
+
+void builder_end_nodes(scene_builder *builder) {
+    scene_node *nodes = builder_items(builder, BLOB_NODES);
+    for (size_t i = builder_count(builder, BLOB_NODES); i-- > 0;)
+        if (nodes[i].parent != SCENE_NO_NODE && nodes[nodes[i].parent].end < nodes[i].end)
+            nodes[nodes[i].parent].end = nodes[i].end;
+}
+
 bool builder_place(scene_builder *builder, size_t mesh, const double matrix[16]) {
+    if (!builder->has_tree)
+        append_node(builder, SCENE_NO_NODE, SCENE_NO_NODE);
     scene_instance *instance = builder_append(builder, BLOB_INSTANCES, 1);
     double moved[16];
     if (!instance)

@@ -17,6 +17,7 @@ typedef struct scene_builder {
     double origin[3];     /* of all positions, in the file's world */
     bool centers_meshes;  /* whether meshes far from 0 in their own space are moved near it */
     double (*centers)[3]; /* then, for each mesh, where it was, for its instances */
+    bool has_tree;        /* whether instances are added to the last node, not each to its own */
     bool out_of_memory;   /* sticky: the functions below then do nothing */
 } scene_builder;
 
@@ -35,6 +36,12 @@ scene_material *builder_material(scene_builder *builder, const char *name);
  * appends nothing if there are no indices. Where meshes are centered, no other mesh may share its
  * vertices. */
 void builder_mesh(scene_builder *builder, const char *name, uint32_t material, size_t first_index);
+
+/* Appends a node below another one, or SCENE_NO_NODE, and returns its number. The instances that
+ * are appended next are its own. Call builder_end_nodes after the last. Without these functions
+ * every instance has a node of its own. */
+uint32_t builder_node(scene_builder *builder, const char *name, uint32_t parent);
+void builder_end_nodes(scene_builder *builder);
 
 /* Appends an instance of a mesh, transformed by a matrix that fits an instance. */
 bool builder_place(scene_builder *builder, size_t mesh, const double matrix[16]);

@@ -38,6 +38,16 @@ typedef struct scene_instance {
     uint32_t mesh;
 } scene_instance;
 
+/* A node of the file's tree that has instances below it. Nodes come before those below them, in the
+ * order of their instances: its own are the first of those below it. */
+#define SCENE_NO_NODE UINT32_MAX
+typedef struct scene_node {
+    uint32_t name;   /* where its name begins among the scene's names; SCENE_NO_NODE: its mesh's */
+    uint32_t parent; /* or SCENE_NO_NODE */
+    uint32_t end;    /* the node after the last one below it */
+    uint32_t first;  /* of the instances below it */
+} scene_node;
+
 typedef enum scene_flags {
     SCENE_DOUBLE_SIDED = 1,
     SCENE_ALPHA_MASK = 2,    /* discard where alpha < alpha_cutoff */
@@ -172,6 +182,8 @@ typedef struct scene {
     const uint32_t *indices;
     const scene_mesh *meshes;
     const scene_instance *instances; /* what is drawn; app/scene/instance.h reads them */
+    const scene_node *nodes;         /* every instance is below one (app/scene/node.h) */
+    const char *names;               /* of nodes, each ended by NUL */
     const scene_material *materials;
     const scene_variant *variants;
     const scene_texture *textures;
@@ -182,7 +194,7 @@ typedef struct scene {
     const scene_motion *motions; /* at most one per light */
     const lmp_vec3 *offsets;
     const scene_unsupported *unsupported;
-    size_t vertex_count, index_count, mesh_count, instance_count;
+    size_t vertex_count, index_count, mesh_count, instance_count, node_count;
     size_t material_count, variant_count, texture_count, image_count, encoded_bytes, texel_bytes;
     size_t camera_count, motion_count, offset_count, unsupported_count;
     scene_light *lights; /* SCENE_LIGHTS_MAX allocated */

@@ -136,6 +136,52 @@ static void instances_place_meshes_that_are_there(void **state) {
     assert_false(is_valid());
 }
 
+static void nodes_are_a_tree_of_all_instances(void **state) {
+    (void)state;
+    assert_int_equal(builder_count(&builder, BLOB_NODES), 1);
+    builder_append(&builder, BLOB_NODES, 2);
+    memcpy(builder_append(&builder, BLOB_NAMES, 8), "top\0leaf", 8);
+    builder_append(&builder, BLOB_NAMES, 1);
+    scene_node *nodes = builder_items(&builder, BLOB_NODES);
+    const scene_node right[3] = { { 0, SCENE_NO_NODE, 3, 0 },
+                                  { SCENE_NO_NODE, 0, 2, 0 },
+                                  { 4, 0, 3, 1 } };
+    const struct {
+        int node;
+        scene_node wrong;
+    } cases[] = {
+        { 0, { 1, SCENE_NO_NODE, 3, 0 } }, /* within a name */
+        { 0, { 9, SCENE_NO_NODE, 3, 0 } },
+        { 0, { 0, 0, 3, 0 } }, /* its own parent */
+        { 0, { 0, 2, 3, 0 } },
+        { 0, { 0, SCENE_NO_NODE, 0, 0 } },
+        { 0, { 0, SCENE_NO_NODE, 4, 0 } },
+        { 0, { 0, SCENE_NO_NODE, 1, 0 } }, /* ends before its children */
+        { 0, { 0, SCENE_NO_NODE, 3, 1 } }, /* without the first instance */
+        { 1, { SCENE_NO_NODE, 0, 1, 0 } }, /* ends where it begins */
+        { 1, { SCENE_NO_NODE, 0, 4, 0 } },
+        { 2, { 4, 1, 3, 1 } }, /* after its parent's end */
+        { 2, { 4, 0, 3, 2 } }, /* an instance that is not there */
+    };
+    memcpy(nodes, right, sizeof right);
+    assert_true(is_valid());
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nodes[cases[i].node] = cases[i].wrong;
+        if (is_valid())
+            fail_msg("case %zu is accepted", i);
+        memcpy(nodes, right, sizeof right);
+    }
+    char *names = builder_items(&builder, BLOB_NAMES);
+    names[8] = 'x'; /* without an end */
+    assert_false(is_valid());
+    names[8] = 0;
+    names[1] = '\n';
+    assert_false(is_valid());
+    names[1] = 'o';
+    builder.arrays[BLOB_NODES].count = 0;
+    assert_false(is_valid());
+}
+
 /* Texels follow each other, each from a page of its own on: an image that claimed another's bytes
  * would be decoded over it. */
 static void images_have_bytes_and_texels_of_their_own(void **state) {
@@ -183,6 +229,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(bounds_are_those_of_the_vertices, make_triangle,
                                         free_builder),
         cmocka_unit_test_setup_teardown(instances_place_meshes_that_are_there, make_triangle,
+                                        free_builder),
+        cmocka_unit_test_setup_teardown(nodes_are_a_tree_of_all_instances, make_triangle,
                                         free_builder),
         cmocka_unit_test_setup_teardown(images_have_bytes_and_texels_of_their_own, make_triangle,
                                         free_builder),

@@ -163,6 +163,25 @@ static void unlit_materials_glow_and_reflect_nothing(void **state) {
     builder_free(&builder);
 }
 
+/* Nodes without a mesh below them, as of cameras, are left out. */
+static void the_tree_of_nodes_is_kept(void **state) {
+    (void)state;
+    scene_builder builder;
+    read_changed("{\"camera\":0,\"matrix\"",
+                 "{\"camera\":0,\"mesh\":0,\"name\":\"eye\\n\",\"matrix\"", &builder);
+    const scene_node *nodes = builder_items(&builder, BLOB_NODES);
+    const char *names = builder_items(&builder, BLOB_NAMES);
+    static const scene_node wanted[] = { { 0, SCENE_NO_NODE, 2, 0 },
+                                         { SCENE_NO_NODE, 0, 2, 0 },
+                                         { 4, SCENE_NO_NODE, 3, 1 } };
+    assert_int_equal(builder_count(&builder, BLOB_NODES), 3);
+    assert_memory_equal(nodes, wanted, sizeof wanted);
+    assert_string_equal(names, "top");
+    assert_string_equal(names + 4, "eye?");
+    assert_int_equal(builder_count(&builder, BLOB_INSTANCES), 2);
+    builder_free(&builder);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_skin_follows_its_joints_alone),
@@ -171,6 +190,7 @@ int main(void) {
         cmocka_unit_test(instances_are_meshes_each_by_its_transform),
         cmocka_unit_test(colors_of_vertices_are_read),
         cmocka_unit_test(two_sets_of_coordinates_are_kept),
+        cmocka_unit_test(the_tree_of_nodes_is_kept),
         cmocka_unit_test(unlit_materials_glow_and_reflect_nothing),
     };
     fill_bytes();

@@ -62,7 +62,9 @@ typedef struct gltf_accessor {
 
 typedef struct gltf_node {
     long parent;      /* or -1 */
-    bool shown;       /* whether it is in the scene */
+    bool shown;       /* whether it is in the scene, */
+    bool filled;      /* and has a mesh, or one below it */
+    uint32_t number;  /* then: of the scene's node */
     double world[16]; /* column-major; to the world relative to the builder's origin */
 } gltf_node;
 

@@ -276,20 +276,38 @@ static void note_undrawn(const gltf *document, scene_builder *builder) {
     }
 }
 
+/* Finds the nodes with a mesh below them. */
+static void find_filled(const gltf *document) {
+    for (size_t i = gltf_count(document, GLTF_NODES); i-- > 0;) {
+        gltf_node *node = &document->nodes[document->order[i]];
+        const json_t *entry = gltf_item(document, GLTF_NODES, document->order[i]);
+        node->filled |= node->shown && json_object_get(entry, "mesh");
+        if (node->filled && node->parent >= 0)
+            document->nodes[node->parent].filled = true;
+    }
+}
+
 static bool add_nodes(const mesh_reader *r) {
     const gltf *document = r->document;
+    find_filled(document);
     for (size_t i = 0; i < gltf_count(document, GLTF_NODES); i++) {
-        const gltf_node *drawn = &document->nodes[document->order[i]];
+        gltf_node *drawn = &document->nodes[document->order[i]];
         json_t *node = gltf_item(document, GLTF_NODES, document->order[i]);
         json_t *instances =
             json_object_get(gltf_extension(node, "EXT_mesh_gpu_instancing"), "attributes");
         sandbox_progress((double)i / (double)gltf_count(document, GLTF_NODES));
-        if (!drawn->shown || !json_object_get(node, "mesh"))
+        if (!drawn->filled)
+            continue;
+        drawn->number =
+            builder_node(r->builder, gltf_text(node, "name"),
+                         drawn->parent < 0 ? SCENE_NO_NODE : document->nodes[drawn->parent].number);
+        if (!json_object_get(node, "mesh"))
             continue;
         if (!(instances ? add_instances(r, node, instances, drawn->world)
                         : add_mesh(r, node, drawn->world)))
             return false;
     }
+    builder_end_nodes(r->builder);
     return true;
 }
 
