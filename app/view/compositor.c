@@ -91,6 +91,12 @@ void view_compositor_destroy(view_compositor *s) {
     free(s);
 }
 
+void view_compositor_inherit(view_compositor *s, view_compositor *before) {
+    const view_images own = s->images;
+    s->images = before->images;
+    before->images = own;
+}
+
 /* --- fields ----------------------------------------------------------------------------------- */
 
 /* Makes a field for so many bands, or frees it if the method reads none. */

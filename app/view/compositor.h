@@ -21,6 +21,9 @@ view_compositor *view_compositor_create(const gpu_context *context, const scene 
                                         view_tree *tree, view_work *work, base_error *error);
 void view_compositor_destroy(view_compositor *compositor);
 
+/* Shows what another one, in the same context, shows, until something is drawn. */
+void view_compositor_inherit(view_compositor *compositor, view_compositor *before);
+
 /* Milliseconds of the passes of the last image, of both sides together. */
 typedef struct view_statistics {
     render_times times;

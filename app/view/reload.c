@@ -126,6 +126,7 @@ static bool open_drawing(viewer *v, const scene *world, const view_settings *set
 }
 
 static void replace_drawing(viewer *v, const drawing *d) {
+    view_compositor_inherit(d->compositor, v->compositor);
     close_drawing(&(drawing) { v->part, v->tree, v->compositor });
     v->part = d->part;
     v->tree = d->tree;
