@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/nodes.h"
-#include "app/scene/instance.h"
+#include "app/scene/node.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
@@ -8,62 +8,51 @@
 
 /* --- which are hidden ------------------------------------------------------------------------- */
 
-/* Returns how many ranges of hidden nodes end before this node. */
-static int ranges_before(const view_settings *s, size_t node) {
+/* Returns how many ranges of hidden instances end before this one. */
+static int ranges_before(const view_settings *s, size_t instance) {
     int at = 0;
-    while (at < s->hidden_count && s->hidden[at].last < node)
+    while (at < s->hidden_count && s->hidden[at].last < instance)
         at++;
     return at;
 }
 
-bool view_node_is_hidden(const view_settings *s, size_t node) {
-    const int at = ranges_before(s, node);
-    return at < s->hidden_count && s->hidden[at].first <= node;
+/* Whether all instances from one to another are hidden. */
+static bool are_hidden(const view_settings *s, size_t first, size_t last) {
+    const int at = ranges_before(s, first);
+    return at < s->hidden_count && s->hidden[at].first <= first && s->hidden[at].last >= last;
 }
 
-static void remove_range(view_settings *s, int at) {
-    s->hidden_count--;
-    memmove(s->hidden + at, s->hidden + at + 1, (size_t)(s->hidden_count - at) * sizeof *s->hidden);
-    memset(s->hidden + s->hidden_count, 0, sizeof *s->hidden);
+bool view_node_is_hidden(const view_state *s, size_t node) {
+    const size_t first = s->world->nodes[node].first, end = scene_node_end(s->world, node);
+    return first < end && are_hidden(&s->now, first, end - 1);
 }
 
-static bool insert_range(view_settings *s, int at, uint32_t first, uint32_t last) {
-    if (s->hidden_count == VIEW_HIDDEN_MAX)
-        return false;
-    memmove(s->hidden + at + 1, s->hidden + at,
-            (size_t)(s->hidden_count++ - at) * sizeof *s->hidden);
-    s->hidden[at] = (view_range) { first, last };
-    return true;
-}
-
-/* Hides a node that is seen; returns false if there is no room for another range. */
-static bool hide(view_settings *s, uint32_t node) {
-    const int at = ranges_before(s, node);
-    const bool after = at > 0 && s->hidden[at - 1].last + 1 == node;
-    const bool before = at < s->hidden_count && s->hidden[at].first == node + 1;
-    if (after)
-        s->hidden[at - 1].last = before ? s->hidden[at].last : node;
-    else if (before)
-        s->hidden[at].first = node;
-    if (after && before)
-        remove_range(s, at);
-    return after || before || insert_range(s, at, node, node);
-}
-
-/* Shows a hidden node; returns false as hide does. */
-static bool unhide(view_settings *s, uint32_t node) {
-    const int at = ranges_before(s, node);
-    view_range *range = &s->hidden[at];
-    if (range->first == node && range->last == node)
-        remove_range(s, at);
-    else if (range->first == node)
-        range->first++;
-    else if (range->last == node)
-        range->last--;
-    else if (insert_range(s, at, range->first, node - 1))
-        range[1].first = node + 1;
+/* Adds a range after those in a list, or joins it to the last one. */
+static int add_range(view_range *list, int count, uint32_t first, uint32_t last) {
+    if (count > 0 && list[count - 1].last + 1 == first)
+        list[--count].last = last;
     else
+        list[count] = (view_range) { first, last };
+    return count + 1;
+}
+
+/* Hides or shows a run of instances; returns false if that takes too many ranges. */
+static bool set_hidden(view_settings *s, view_range run, bool hides) {
+    view_range list[VIEW_HIDDEN_MAX + 2];
+    int count = 0;
+    for (const view_range *r = s->hidden; r < s->hidden + s->hidden_count; r++)
+        if (r->first < run.first)
+            count = add_range(list, count, r->first, r->last < run.first ? r->last : run.first - 1);
+    if (hides)
+        count = add_range(list, count, run.first, run.last);
+    for (const view_range *r = s->hidden; r < s->hidden + s->hidden_count; r++)
+        if (r->last > run.last)
+            count = add_range(list, count, r->first > run.last ? r->first : run.last + 1, r->last);
+    if (count > VIEW_HIDDEN_MAX)
         return false;
+    memset(s->hidden, 0, sizeof s->hidden);
+    memcpy(s->hidden, list, (size_t)count * sizeof *list);
+    s->hidden_count = count;
     return true;
 }
 
@@ -72,22 +61,23 @@ static bool unhide(view_settings *s, uint32_t node) {
 /* Returns the node under the pointer among those that are seen, or -1. */
 static long node_at_pointer(const view_state *s) {
     view_ray ray;
-    long node = view_hit_at_pointer(s, &ray).instance;
-    for (int i = 0; i < s->now.hidden_count && node >= (long)s->now.hidden[i].first; i++)
-        node += (long)s->now.hidden[i].last - (long)s->now.hidden[i].first + 1;
-    return node;
+    long instance = view_hit_at_pointer(s, &ray).instance;
+    for (int i = 0; i < s->now.hidden_count && instance >= (long)s->now.hidden[i].first; i++)
+        instance += (long)s->now.hidden[i].last - (long)s->now.hidden[i].first + 1;
+    return instance < 0 ? -1 : (long)scene_node_of(s->world, (size_t)instance);
 }
 
-/* Returns the selected node or that under the pointer; else says so and returns -1. */
-static long find_node(view_state *s) {
+/* Finds the instances below the selected node or that under the pointer; else says so and returns
+ * -1. */
+static long find_node(view_state *s, view_range *run) {
     const long node = s->node >= 0 ? s->node : node_at_pointer(s);
-    if (node < 0)
+    if (node < 0 || scene_node_end(s->world, (size_t)node) == s->world->nodes[node].first) {
         view_say(s, "Select a node, or point at one");
+        return -1;
+    }
+    *run = (view_range) { s->world->nodes[node].first,
+                          (uint32_t)scene_node_end(s->world, (size_t)node) - 1 };
     return node;
-}
-
-static const char *name_of(const view_state *s, long node) {
-    return s->world->meshes[s->world->instances[node].mesh].name;
 }
 
 void view_pick_node(view_state *s, int unused) {
@@ -96,16 +86,16 @@ void view_pick_node(view_state *s, int unused) {
     if (s->node < 0)
         view_say(s, "No node");
     else
-        view_say(s, "Node %ld: %s", s->node, name_of(s, s->node));
+        view_say(s, "Node %ld: %s", s->node, scene_node_name(s->world, (size_t)s->node));
 }
 
 void view_frame_node(view_state *s, int unused) {
     (void)unused;
-    const long node = find_node(s);
+    view_range run;
+    const long node = find_node(s, &run);
     float lo[3], hi[3];
-    if (node < 0)
+    if (node < 0 || !scene_node_bounds(s->world, (size_t)node, lo, hi))
         return;
-    scene_instance_box(s->world, (size_t)node, lo, hi);
     const lmp_vec3 a = vec_load(lo), b = vec_load(hi);
     view_frame(&s->now.camera, vec_scale(vec_add(a, b), 0.5f), 0.5f * vec_length(vec_sub(b, a)),
                (float)s->now.width / (float)s->now.height);
@@ -113,35 +103,34 @@ void view_frame_node(view_state *s, int unused) {
 
 void view_hide_node(view_state *s, int unused) {
     (void)unused;
-    const long node = find_node(s);
+    view_range run;
+    const long node = find_node(s, &run);
     if (node < 0)
         return;
-    const bool hidden = view_node_is_hidden(&s->now, (size_t)node);
+    const bool hidden = view_node_is_hidden(s, (size_t)node);
     s->requests.nodes = true;
-    if ((hidden ? unhide : hide)(&s->now, (uint32_t)node))
-        view_say(s, "%s is %s", name_of(s, node), hidden ? "shown" : "hidden");
+    if (set_hidden(&s->now, run, !hidden))
+        view_say(s, "%s is %s", scene_node_name(s->world, (size_t)node),
+                 hidden ? "shown" : "hidden");
     else
         view_say(s, "Too many nodes are hidden one by one");
 }
 
 void view_isolate_node(view_state *s, int unused) {
     (void)unused;
-    const long node = find_node(s);
-    const uint32_t count = (uint32_t)s->world->instance_count;
+    view_range run;
+    const long node = find_node(s, &run);
     if (node < 0)
         return;
-    view_show_nodes(s, 0);
-    if (node > 0)
-        insert_range(&s->now, 0, 0, (uint32_t)node - 1);
-    if ((uint32_t)node + 1 < count)
-        insert_range(&s->now, s->now.hidden_count, (uint32_t)node + 1, count - 1);
-    view_say(s, "%s alone", name_of(s, node));
+    s->requests.nodes = true;
+    set_hidden(&s->now, (view_range) { 0, (uint32_t)s->world->instance_count - 1 }, true);
+    set_hidden(&s->now, run, false);
+    view_say(s, "%s alone", scene_node_name(s->world, (size_t)node));
 }
 
 void view_show_nodes(view_state *s, int unused) {
     (void)unused;
-    memset(s->now.hidden, 0, sizeof s->now.hidden);
-    s->now.hidden_count = 0;
+    set_hidden(&s->now, (view_range) { 0, UINT32_MAX }, false);
     s->requests.nodes = true;
     view_say(s, "All nodes");
 }
@@ -159,9 +148,9 @@ scene *view_part_make(const scene *whole, const view_settings *settings, base_er
     }
     *part = *whole;
     part->instances = instances;
-    part->instance_count = 0;
+    part->instance_count = part->node_count = 0;
     for (size_t i = 0; i < whole->instance_count; i++)
-        if (!settings || !view_node_is_hidden(settings, i))
+        if (!settings || !are_hidden(settings, i, i))
             instances[part->instance_count++] = whole->instances[i];
     return part;
 }

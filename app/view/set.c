@@ -94,7 +94,7 @@ static bool set_view(view_state *s, const char *name, const char *typed, base_er
         number < (double)s->now.light_count)
         s->selected = (int)number;
     else if (strcmp(name, "node") == 0 && is_number && number == floor(number) && number >= -1 &&
-             number < (double)s->world->instance_count)
+             number < (double)s->world->node_count)
         s->node = (long)number;
     else if (strcmp(name, "seconds") == 0 && is_number && number >= 0 && number <= 1e6)
         s->seconds = number;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* sidebar.c - every value as a field, and every action as a button. */
 #include "app/render/renderer/bounces.h"
+#include "app/scene/node.h"
 #include "app/scene/vector.h"
 #include "app/scene/world.h"
 #include "app/view/lights.h"
@@ -102,20 +103,44 @@ static void put_files(viewer *v) {
     ui_list_end();
 }
 
+/* Returns how many nodes a node is below, and opens these if `opens`. */
+static int depth_of(const scene *world, long node, bool opens) {
+    int depth = 0;
+    for (uint32_t at = world->nodes[node].parent; at != SCENE_NO_NODE; depth++) {
+        if (opens)
+            ui_open_item(at);
+        at = world->nodes[at].parent;
+    }
+    return depth;
+}
+
+/* Lists the nodes as a tree, or those with a text in their names. */
 static void put_scene(viewer *v) {
     view_state *s = &v->state;
-    char *find = v->sidebar.find_node, item[SCENE_NAME_SIZE + 48];
-    const long count = (long)s->world->instance_count;
-    ui_line("find##node", find, sizeof v->sidebar.find_node, true);
+    view_sidebar *bar = &v->sidebar;
+    char item[SCENE_NAME_SIZE + 48];
+    ui_line("find##node", bar->find_node, sizeof bar->find_node, true);
+    const bool finds = bar->find_node[0];
+    const bool chosen = s->node >= 0 && s->node != bar->node;
     ui_list_begin("nodes", 8);
-    for (long i = 0; i < count; i++) {
-        const char *name = s->world->meshes[s->world->instances[i].mesh].name;
-        if (!strcasestr(name, find) || !ui_sees_item())
+    if (chosen)
+        depth_of(s->world, s->node, true);
+    bar->node = s->node;
+    for (long i = 0, next; i < (long)s->world->node_count; i = next) {
+        const long end = (long)s->world->nodes[i].end;
+        const char *name = scene_node_name(s->world, (size_t)i);
+        next = finds || (end > i + 1 && ui_is_open(i)) ? i + 1 : end;
+        if (finds && !strcasestr(name, bar->find_node))
             continue;
-        snprintf(item, sizeof item, "%ld %s%s##node", i, name,
-                 view_node_is_hidden(&s->now, (size_t)i) ? ", hidden" : "");
-        if (ui_item(item, i == s->node))
-            s->node = i == s->node ? -1 : i;
+        if (chosen && i == s->node)
+            ui_reveal_item();
+        if (!ui_sees_item())
+            continue;
+        snprintf(item, sizeof item, "%s%s##node", name[0] ? name : "(no name)",
+                 view_node_is_hidden(s, (size_t)i) ? ", hidden" : "");
+        if (ui_tree_item(i, item, finds ? 0 : depth_of(s->world, i, false), !finds && end > i + 1,
+                         i == s->node))
+            bar->node = s->node = i == s->node ? -1 : i;
     }
     ui_list_end();
 }
@@ -335,8 +360,11 @@ static void put_lights(viewer *v) {
     for (int i = 0; i < SCENE_LIGHT_KIND_COUNT; i++)
         kinds[i] = scene_light_kinds[i].name;
     if (count > 0) {
+        const bool chosen = s->selected != v->sidebar.light; /* elsewhere */
         ui_list_begin("lights", count < 6 ? count : 6);
         for (int i = 0; i < count; i++) {
+            if (chosen && i == s->selected)
+                ui_reveal_item();
             if (!ui_sees_item())
                 continue;
             snprintf(item, sizeof item, "%d %s%s##light", i, kinds[s->now.lights[i].emitter.kind],
@@ -344,6 +372,7 @@ static void put_lights(viewer *v) {
             if (ui_item(item, i == s->selected))
                 s->selected = i;
         }
+        v->sidebar.light = s->selected;
         ui_list_end();
     }
     if (s->selected < 0)

@@ -132,7 +132,7 @@ typedef struct view_state {
     bool lights_edited;
     view_history history;
     int selected; /* a light, or -1 */
-    long node;    /* the selected instance of the scene, or -1 */
+    long node;    /* the selected one of the scene, or -1 */
     view_drag drag;
     lmp_vec3 grab;         /* from the dragged light's animated position to its resting position */
     float grab_depth;      /* of the dragged light's center */

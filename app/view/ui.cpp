@@ -51,7 +51,8 @@ struct interface {
     std::bitset<IM_UNICODE_CODEPOINT_MAX + 1> spelled; /* characters of all texts so far */
     bool complete = false;                             /* whether the font has those that exist */
     std::unordered_map<std::string, ImVec2> places;    /* of headings and buttons */
-    ImVec2 below; /* where the widget after the last button goes, unless beside it */
+    int skipped = 0; /* items of the list before the next one, that are not seen */
+    ImVec2 below;    /* where the widget after the last button goes, unless beside it */
 };
 
 interface *self;
@@ -412,22 +413,93 @@ void ui_list_begin(const char *name, int rows) {
                       true);
 }
 
+namespace {
+
+/* Returns what the library knows an item of a tree by. */
+const void *item_pointer(long number) {
+    return reinterpret_cast<const void *>(number);
+}
+
+/* Leaves the places of items that are not seen empty, all at once. */
+void skip_items() {
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    if (self->skipped > 0)
+        ImGui::Dummy(
+            ImVec2(1, line * static_cast<float>(self->skipped) - ImGui::GetStyle().ItemSpacing.y));
+    self->skipped = 0;
+}
+
+/* Returns where the next item begins, from the upper edge of the window. */
+float next_item() {
+    return ImGui::GetCursorScreenPos().y +
+           ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(self->skipped);
+}
+
+/* Returns the length of a name up to the ## after which it is not shown. */
+int shown_length(const char *name) {
+    return static_cast<int>(ImGui::FindRenderedTextEnd(name) - name);
+}
+
+/* Shows the whole of a text that the list has no room for, from a place on. */
+void show_whole(const char *text, float from) {
+    const float end = from + ImGui::CalcTextSize(text, nullptr, true).x;
+    if (ImGui::IsItemHovered() && end > ImGui::GetCurrentWindow()->ClipRect.Max.x)
+        ImGui::SetTooltip("%.*s", shown_length(text), text);
+}
+
+} // namespace
+
 bool ui_sees_item() {
-    const ImVec2 size(1, ImGui::GetTextLineHeight());
-    const bool seen = ImGui::IsRectVisible(size);
-    if (!seen)
-        ImGui::Dummy(size);
-    return seen;
+    const ImRect &seen = ImGui::GetCurrentWindow()->ClipRect;
+    const float y = next_item();
+    if (y <= seen.Max.y && y + ImGui::GetTextLineHeight() >= seen.Min.y) {
+        skip_items();
+        return true;
+    }
+    self->skipped++;
+    return false;
+}
+
+void ui_reveal_item() {
+    ImGui::SetScrollFromPosY(next_item() - ImGui::GetWindowPos().y);
 }
 
 bool ui_item(const char *text, bool chosen) {
     spell(text);
     const bool pressed = ImGui::Selectable(text, chosen);
     mark(text);
+    show_whole(text, ImGui::GetItemRectMin().x);
     return pressed;
 }
 
+bool ui_tree_item(long number, const char *text, int depth, bool has_more, bool chosen) {
+    const float indent = static_cast<float>(depth) * 0.8f * ImGui::GetFontSize() + 0.01f;
+    spell(text);
+    ImGui::Indent(indent);
+    const bool was_open = ui_is_open(number);
+    ImGui::TreeNodeEx(item_pointer(number),
+                      ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen |
+                          ImGuiTreeNodeFlags_SpanAvailWidth |
+                          (has_more ? 0 : ImGuiTreeNodeFlags_Leaf) |
+                          (chosen ? ImGuiTreeNodeFlags_Selected : 0),
+                      "%.*s", shown_length(text), text);
+    mark(text);
+    show_whole(text, ImGui::GetItemRectMin().x + ImGui::GetTreeNodeToLabelSpacing());
+    const bool pressed = ImGui::IsItemClicked() && ui_is_open(number) == was_open;
+    ImGui::Unindent(indent);
+    return pressed;
+}
+
+bool ui_is_open(long number) {
+    return ImGui::TreeNodeBehaviorIsOpen(ImGui::GetID(item_pointer(number)));
+}
+
+void ui_open_item(long number) {
+    ImGui::GetStateStorage()->SetBool(ImGui::GetID(item_pointer(number)), true);
+}
+
 void ui_list_end() {
+    skip_items();
     ImGui::EndChild();
 }
 

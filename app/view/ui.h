@@ -84,8 +84,17 @@ void ui_list_begin(const char *name, int rows);
 /* Whether the next item is seen; if not, its place is left empty. */
 bool ui_sees_item(void);
 
-/* Adds an item; returns whether it was chosen. */
+/* Scrolls the list so that the next item is seen in the next frame. */
+void ui_reveal_item(void);
+
+/* Adds an item; returns whether it was chosen. If the list is too narrow for it, pointing at it
+ * shows all of it. */
 bool ui_item(const char *text, bool chosen);
+
+/* Adds an item of a tree, by its number, at a depth; one with items below it can be opened. */
+bool ui_tree_item(long number, const char *text, int depth, bool has_more, bool chosen);
+bool ui_is_open(long number);
+void ui_open_item(long number);
 void ui_list_end(void);
 
 /* Adds an image of size x size pixels, 0 … 1 and linear; pixels below 0 are left out. */

@@ -25,12 +25,21 @@ typedef struct view_told {
     int sample, samples;                    /* 0 samples: nothing was drawn yet */
 } view_told;
 
+/* The passes of an image, and the milliseconds that they took. */
+enum { VIEW_PASSES = 6 };
+typedef struct view_pass {
+    const char *name;
+    double ms;
+} view_pass;
+
 /* What the sidebar remembers. */
 enum { VIEW_FRAMES_TOLD = 120 };
 typedef struct view_sidebar {
     char find[64], find_node[64]; /* in the lists */
     int material;                 /* of the scene, the chosen one */
     view_ball ball;               /* of it */
+    long node;                    /* the ones selected in the last frame: */
+    int light;                    /* others were chosen elsewhere */
     float ms[VIEW_FRAMES_TOLD];   /* that the last frames took, oldest first */
 } view_sidebar;
 
@@ -164,6 +173,9 @@ enum { VIEW_SIDEBAR_WIDTH = 320 }; /* pixels at 96 per inch, or half of a narrow
 /* Describes the sidebar, within a frame of the interface. Returns where it begins: the width of the
  * image that is not covered. */
 double view_draw_sidebar(viewer *v);
+
+/* Finds the passes that are shown, and returns their number. */
+int view_passes(const viewer *v, view_pass passes[VIEW_PASSES]);
 
 /* --- input.c ---------------------------------------------------------------------------------- */
 

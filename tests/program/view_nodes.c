@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Nodes of the viewer's scene: found, framed, hidden, and what is left then. */
+#include "app/scene/node.h"
 #include "app/view/nodes.h"
 #include "tests/program/folder.h"
 #include "tests/program/viewer.h"
 
 #include <jansson.h>
 #include <stdlib.h>
+#include <time.h>
 
 /* Hides and shows what the settings say, as the viewer does between two frames. */
 static scene *part;
@@ -50,7 +52,12 @@ static void ranges_say_which_nodes_are_hidden(void **unused) {
     scene many = world;
     many.instance_count = NODES;
     scene_instance *instances = calloc(NODES, sizeof *instances);
+    scene_node nodes[NODES];
+    for (uint32_t i = 0; i < NODES; i++)
+        nodes[i] = (scene_node) { SCENE_NO_NODE, SCENE_NO_NODE, i + 1, i };
     many.instances = instances;
+    many.nodes = nodes;
+    many.node_count = NODES;
     v.state.world = &many;
     for (int i = 0; i < 2000; i++) {
         seed = seed * 1664525u + 1013904223u;
@@ -63,11 +70,11 @@ static void ranges_say_which_nodes_are_hidden(void **unused) {
         scene *left = view_part_make(&many, &copy, &error);
         size_t count = 0;
         for (size_t node = 0; node < NODES; node++) {
-            assert_int_equal(view_node_is_hidden(&v.state.now, node), hidden[node]);
-            assert_int_equal(view_node_is_hidden(&copy, node), hidden[node]);
+            assert_int_equal(view_node_is_hidden(&v.state, node), hidden[node]);
             count += !hidden[node];
         }
         assert_int_equal(left->instance_count, count);
+        assert_memory_equal(copy.hidden, v.state.now.hidden, sizeof copy.hidden);
         view_part_free(left);
     }
     v.state.world = &world;
@@ -165,23 +172,23 @@ static void hiding_is_undone(void **unused) {
     assert_int_equal(part->instance_count, 1);
     act("Undo");
     assert_int_equal(part->instance_count, count - 1);
-    assert_true(view_node_is_hidden(&v.state.now, 0));
+    assert_true(view_node_is_hidden(&v.state, 0));
     act("Undo"); /* the light's */
-    assert_true(!v.state.requests.nodes && view_node_is_hidden(&v.state.now, 0));
+    assert_true(!v.state.requests.nodes && view_node_is_hidden(&v.state, 0));
     act("Undo");
     assert_int_equal(part->instance_count, count);
     act("Redo");
     act("Redo");
     act("Redo");
     assert_int_equal(part->instance_count, 1);
-    assert_false(view_node_is_hidden(&v.state.now, 0));
+    assert_false(view_node_is_hidden(&v.state, 0));
 }
 
 static void a_node_is_selected_in_the_list_and_framed(void **unused) {
     (void)unused;
     char item[SCENE_NAME_SIZE + 48];
     double x, y, scale;
-    snprintf(item, sizeof item, "1 %s##node", world.meshes[world.instances[1].mesh].name);
+    snprintf(item, sizeof item, "%s##node", scene_node_name(&world, 1));
     click_on("Scene");
     click_on(item);
     assert_int_equal(v.state.node, 1);
@@ -200,7 +207,7 @@ static void a_node_is_selected_in_the_list_and_framed(void **unused) {
     take((view_event) { .kind = VIEW_MOVE, .x = MIDDLE, .y = HEIGHT / 2 });
     act("Hide");
     view_lay_out(&v, NULL, false);
-    snprintf(item, sizeof item, "1 %s, hidden##node", world.meshes[world.instances[1].mesh].name);
+    snprintf(item, sizeof item, "%s, hidden##node", scene_node_name(&world, 1));
     assert_true(ui_find(item, &x, &y));
     click_on("find##node");
     take((view_event) { .kind = VIEW_TYPE, .text = "no such node" });
@@ -209,6 +216,113 @@ static void a_node_is_selected_in_the_list_and_framed(void **unused) {
     take((view_event) { .kind = VIEW_KEY, .text = "Escape" });
     take((view_event) { .kind = VIEW_KEY, .text = "Escape" });
     assert_int_equal(v.state.node, -1);
+}
+
+/* Hangs the scene's three instances on a tree: a room with a table, on which lies a book, and a
+ * lamp. */
+static scene_node tree_of[] = {
+    { 0, SCENE_NO_NODE, 4, 0 }, { 5, 0, 3, 0 }, { 11, 1, 3, 1 }, { 16, 0, 4, 2 }
+};
+static void hang(void) {
+    world.nodes = tree_of;
+    world.names = "room\0table\0book\0lamp";
+    world.node_count = sizeof tree_of / sizeof *tree_of;
+    assert_int_equal(world.instance_count, 3);
+}
+
+static bool lists(const char *item) {
+    double x, y;
+    return ui_find(item, &x, &y);
+}
+
+static void what_is_below_a_node_is_hidden_with_it(void **unused) {
+    (void)unused;
+    hang();
+    v.state.node = 1;
+    act("Hide");
+    assert_int_equal(part->instance_count, 1);
+    assert_true(view_node_is_hidden(&v.state, 1) && view_node_is_hidden(&v.state, 2));
+    assert_false(view_node_is_hidden(&v.state, 0) || view_node_is_hidden(&v.state, 3));
+    v.state.node = 2;
+    act("Hide"); /* shows it again, but not all of its parent */
+    assert_int_equal(part->instance_count, 2);
+    assert_false(view_node_is_hidden(&v.state, 1));
+    v.state.node = 1;
+    act("Isolate");
+    assert_int_equal(part->instance_count, 2);
+    assert_true(view_node_is_hidden(&v.state, 3));
+    v.state.node = 0;
+    act("Hide");
+    assert_int_equal(part->instance_count, 0);
+    act("Hide");
+    assert_int_equal(v.state.now.hidden_count, 0);
+}
+
+static void an_instance_belongs_to_the_node_that_draws_it(void **unused) {
+    (void)unused;
+    float low[3], high[3], lamp_low[3], lamp_high[3];
+    hang();
+    for (size_t i = 0; i < 3; i++)
+        assert_int_equal(scene_node_of(&world, i), i + 1);
+    assert_true(scene_node_bounds(&world, 0, low, high));
+    assert_memory_equal(low, world.minimum, sizeof low);
+    assert_memory_equal(high, world.maximum, sizeof high);
+    assert_true(scene_node_bounds(&world, 3, lamp_low, lamp_high));
+    assert_true(memcmp(low, lamp_low, sizeof low) != 0 || memcmp(high, lamp_high, sizeof high));
+}
+
+/* The tree is folded at first; a node that is picked, or found by its name, is seen. */
+static void the_tree_folds(void **unused) {
+    (void)unused;
+    double x, y;
+    hang();
+    click_on("Scene");
+    assert_true(lists("room##node") && !lists("table##node"));
+    click_on("room##node"); /* selects */
+    assert_true(v.state.node == 0 && !lists("table##node"));
+    assert_true(ui_find("room##node", &x, &y));
+    for (double at = x; at > MIDDLE && !lists("table##node"); at -= 4)
+        click(at, y); /* until the arrow opens it */
+    assert_true(lists("table##node") && lists("lamp##node") && !lists("book##node"));
+    v.state.node = 2;
+    view_lay_out(&v, NULL, false);
+    view_lay_out(&v, NULL, false);
+    assert_true(lists("book##node"));
+    click_on("lamp##node");
+    assert_int_equal(v.state.node, 3);
+    click_on("find##node");
+    take((view_event) { .kind = VIEW_TYPE, .text = "BOO" });
+    view_lay_out(&v, NULL, false);
+    assert_true(lists("book##node") && !lists("room##node") && !lists("lamp##node"));
+    click_on("book##node");
+    assert_int_equal(v.state.node, 2);
+}
+
+/* However many nodes there are, a list takes the time of those that are seen. */
+static void a_large_tree_is_fast(void **unused) {
+    (void)unused;
+    enum { NODES = 200000 };
+    scene_node *nodes = calloc(NODES, sizeof *nodes);
+    assert_non_null(nodes);
+    hang();
+    for (uint32_t i = 0; i < NODES; i++)
+        nodes[i] = (scene_node) { 0, i ? 0 : SCENE_NO_NODE, i ? i + 1 : NODES, 0 };
+    nodes[NODES - 1].name = 16;
+    world.nodes = nodes;
+    world.node_count = NODES;
+    click_on("Scene");
+    v.state.node = NODES - 1; /* the last row of all */
+    for (int i = 0; i < 3; i++)
+        view_lay_out(&v, NULL, false);
+    assert_true(lists("lamp##node"));
+    const clock_t began = clock();
+    for (int i = 0; i < 20; i++)
+        view_lay_out(&v, NULL, false);
+    const double ms = 1e3 * (double)(clock() - began) / CLOCKS_PER_SEC / 20;
+    print_message("%.2f ms a frame\n", ms);
+    assert_true(ms < 60);
+    hang();
+    free(nodes);
 }
 
 int main(void) {
@@ -221,6 +335,10 @@ int main(void) {
         NODES(actions_are_for_what_is_pointed_at),
         NODES(a_node_is_selected_in_the_list_and_framed),
         NODES(hiding_is_undone),
+        NODES(what_is_below_a_node_is_hidden_with_it),
+        NODES(an_instance_belongs_to_the_node_that_draws_it),
+        NODES(the_tree_folds),
+        NODES(a_large_tree_is_fast),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -432,6 +432,10 @@ static void the_last_of_many_lights_is_selected_in_the_list(void **unused) {
     snprintf(item, sizeof item, "%d sphere##light", SCENE_LIGHTS_MAX - 1);
     click_on(item);
     assert_int_equal(v.state.selected, SCENE_LIGHTS_MAX - 1);
+    v.state.selected = 1000; /* as by a click on the light itself */
+    view_lay_out(&v, NULL, false);
+    view_lay_out(&v, NULL, false);
+    assert_true(ui_find("1000 sphere##light", &x, &y));
 }
 
 /* --- whose event it is ------------------------------------------------------------------------ */
