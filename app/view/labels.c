@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define STATISTICS_SECONDS 0.25 /* between updates, in which they can be read */
-enum { STATISTICS_ROWS = 16 };
+enum { STATISTICS_ROWS = 11 + VIEW_PASSES };
 
 static void add_row(view_row *rows, int *count, const char *name, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -63,11 +63,13 @@ static int fill_statistics(const viewer *v, view_row rows[STATISTICS_ROWS]) {
     const view_state *s = &v->state;
     const view_settings *d = v->drawn;
     const view_told *told = &v->told;
-    const render_times *t = &told->statistics.times;
+    const char *slash = strrchr(d->scene, '/');
+    view_pass passes[VIEW_PASSES];
+    const int pass_count = view_passes(v, passes);
     char shading[96], text[96];
     int count = 0;
     add_row(rows, &count, "Lampion", "%s", "");
-    add_row(rows, &count, "Scene", "%.100s", d->scene);
+    add_row(rows, &count, "Scene", "%.60s", slash ? slash + 1 : d->scene);
     describe_shading(&d->shading[0], shading, sizeof shading);
     add_row(rows, &count, d->split == GPU_SPLIT_NONE ? "Shading" : "Left", "%s", shading);
     if (d->split != GPU_SPLIT_NONE) {
@@ -87,16 +89,9 @@ static int fill_statistics(const viewer *v, view_row rows[STATISTICS_ROWS]) {
         return count;
     add_row(rows, &count, "Image", "%d × %d, sample %d of %d", told->statistics.width,
             told->statistics.height, told->sample + 1, told->samples);
-    add_row(rows, &count, "Geometry", "%.1f ms", t->surfaces);
-    add_row(rows, &count, "Shading", "%.1f ms on the %s", t->shade,
-            device_table[told->statistics.device].text);
-    if (t->shadow > 0)
-        add_row(rows, &count, "Shadows", "%.1f ms", t->shadow);
-    if (t->bounces > 0)
-        add_row(rows, &count, "Bounces", "%.1f ms", t->bounces);
-    if (t->transfer > 0)
-        add_row(rows, &count, "Transfer", "%.1f ms", t->transfer);
-    add_row(rows, &count, "Window", "%.1f ms", 1e3 * told->show_seconds);
+    add_row(rows, &count, "Device", "%s", device_table[told->statistics.device].text);
+    for (int i = 0; i < pass_count; i++)
+        add_row(rows, &count, passes[i].name, "%.1f ms", passes[i].ms);
     if (s->recording)
         add_row(rows, &count, "Recording", "%s, %d frames", v->record, v->recorded);
     return count;

@@ -386,24 +386,32 @@ static void put_lights(viewer *v) {
 
 /* --- statistics ------------------------------------------------------------------------------- */
 
-static void put_window(viewer *v) {
+int view_passes(const viewer *v, view_pass passes[VIEW_PASSES]) {
     const render_times *t = &v->told.statistics.times;
-    const struct {
-        const char *name;
-        double ms;
-    } passes[] = { { "geometry", t->surfaces }, { "shading", t->shade },
-                   { "shadows", t->shadow },    { "bounces", t->bounces },
-                   { "transfer", t->transfer }, { "window", 1e3 * v->told.show_seconds } };
+    const view_pass all[VIEW_PASSES] = {
+        { "Geometry", t->surfaces }, { "Shading", t->shade },
+        { "Shadows", t->shadow },    { "Bounces", t->bounces },
+        { "Transfer", t->transfer }, { "Window", 1e3 * v->told.show_seconds },
+    };
+    int count = 0;
+    for (int i = 0; i < VIEW_PASSES; i++)
+        if (all[i].ms >= 0.05)
+            passes[count++] = all[i];
+    return count;
+}
+
+static void put_window(viewer *v) {
+    view_pass passes[VIEW_PASSES];
+    const int count = view_passes(v, passes);
     char text[64];
     float most = 1;
     for (int i = 0; i < VIEW_FRAMES_TOLD; i++)
         most = fmaxf(most, v->sidebar.ms[i]);
     snprintf(text, sizeof text, "ms of the last frames, up to %.0f", (double)most);
     ui_graph(text, v->sidebar.ms, VIEW_FRAMES_TOLD, most);
-    for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
+    for (int i = 0; i < count; i++) {
         snprintf(text, sizeof text, "%s %.1f ms", passes[i].name, passes[i].ms);
-        if (passes[i].ms >= 0.05)
-            ui_text(text);
+        ui_text(text);
     }
 }
 
