@@ -16,6 +16,7 @@
 #define DIVIDER_PIXELS   8.0
 #define FLY_SPEED        0.15f /* diagonals of the scene per second */
 #define FLY_FAST         4.0f
+#define HELP_STEP        60.0  /* pixels of the help, per step of the wheel */
 #define WALK_STEP        0.02f /* of the diagonal, per step of the wheel */
 
 /* --- the pointer ------------------------------------------------------------------------------ */
@@ -145,10 +146,13 @@ static void move(view_state *s, double x, double y) {
     }
 }
 
-/* Zooms, walks, or moves a dragged light nearer and farther, an aimed one to its surface. */
+/* Scrolls the help, zooms, walks, or moves a dragged light nearer and farther, an aimed one to its
+ * surface. */
 static void scroll(view_state *s, double steps) {
     const float factor = powf(ZOOM_STEP, (float)steps);
-    if (s->drag == VIEW_DRAG_LIGHT && s->selected >= 0) {
+    if (s->help) {
+        s->help_scroll -= HELP_STEP * s->scale * steps;
+    } else if (s->drag == VIEW_DRAG_LIGHT && s->selected >= 0) {
         const float depth = s->grab_depth;
         s->grab_depth /= factor;
         if (!drag_light(s))

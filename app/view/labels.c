@@ -151,7 +151,7 @@ static void draw_values(const viewer *v, double x, double y) {
     view_row rows[VIEW_PANEL_ROWS];
     const int count = view_panel_rows(&v->state, rows);
     if (count > 0)
-        view_draw_rows(rows, count, x, y, 1);
+        view_draw_rows(rows, count, x, y, 1, UI_SOLID_PAPER); /* over the statistics */
 }
 
 void view_lay_out(viewer *v, const char *announcement, bool fresh) {
@@ -169,13 +169,13 @@ void view_lay_out(viewer *v, const char *announcement, bool fresh) {
     }
     if (v->state.overlay && !v->state.help) {
         draw_sides(v, scale);
-        view_draw_rows(rows, fill_statistics(v, rows), 12 * scale, 12 * scale, 0);
+        view_draw_rows(rows, fill_statistics(v, rows), 12 * scale, 12 * scale, 0, UI_PAPER);
     }
     const double right = v->uncovered = v->state.help ? width : view_draw_sidebar(v);
     if (v->state.help)
-        view_draw_help(width, height);
+        view_draw_help(width, height, &v->state.help_scroll);
     else
-        draw_values(v, right - 12 * scale, 12 * scale);
+        draw_values(v, right - 12 * scale, (v->state.sidebar ? 12 : 32) * scale);
     if (message[0])
         view_draw_message(message, 0.9 * right, 0.5 * right, height - 56 * scale, 0.5);
     v->laid = ui_end();

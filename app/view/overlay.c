@@ -2,7 +2,6 @@
 #include "app/view/overlay.h"
 
 #include "app/view/state.h"
-#include "app/view/ui.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,6 +10,7 @@
 #define LINE       1.25
 #define MARGIN     0.8
 #define COLUMN_GAP 2.0
+#define READABLE   0.75 /* of the interface's size of text */
 enum { HELP_COLUMNS_MAX = 3, HELP_ROWS_MAX = 80 };
 
 static double width_of(const char *text) {
@@ -21,7 +21,8 @@ static double width_of(const char *text) {
 
 /* --- rows ------------------------------------------------------------------------------------- */
 
-view_box view_draw_rows(const view_row *rows, int count, double x, double y, double pivot) {
+view_box view_draw_rows(const view_row *rows, int count, double x, double y, double pivot,
+                        ui_color paper) {
     const double em = ui_text_height(), margin = MARGIN * em;
     double names = 0, widest = 0;
     for (int i = 0; i < count; i++)
@@ -32,7 +33,7 @@ view_box view_draw_rows(const view_row *rows, int count, double x, double y, dou
                       rows[i].value[0] ? names + width_of(rows[i].value) : width_of(rows[i].name));
     view_box box = { x, y, widest + 2 * margin, count * LINE * em + 2 * margin };
     box.x -= pivot * box.width;
-    ui_box(box.x, box.y, box.width, box.height, 0.6 * em, UI_PAPER);
+    ui_box(box.x, box.y, box.width, box.height, 0.6 * em, paper);
     for (int i = 0; i < count; i++) {
         const double at = y + margin + (i * LINE + 0.5 * (LINE - 1)) * em;
         const bool stands_out = !rows[i].value[0] || rows[i].chosen;
@@ -107,13 +108,12 @@ static void write_help(const help_layout *l, const view_box *box, double size) {
     }
 }
 
-view_box view_draw_help(int width, int height) {
+view_box view_draw_help(int width, int height, double *scroll) {
     help_layout l = { .columns = 0 };
     const int count = list_rows(&l);
-    view_box box = { .width = 0 };
     double size = 0;
-    int best = 2;
-    for (int columns = 2; columns <= HELP_COLUMNS_MAX; columns++) {
+    int best = 1;
+    for (int columns = 1; columns <= HELP_COLUMNS_MAX; columns++) {
         const view_box needed = help_box(&l, break_columns(&l, count, columns));
         const double fits = fmin(1, fmin(width / needed.width, height / needed.height));
         if (fits > size) {
@@ -121,11 +121,14 @@ view_box view_draw_help(int width, int height) {
             best = columns;
         }
     }
-    box = help_box(&l, break_columns(&l, count, best));
+    best = size < READABLE ? 1 : best;
+    view_box box = help_box(&l, break_columns(&l, count, best));
+    size = size < READABLE ? fmin(1, width / box.width) : size;
     box.width *= size;
     box.height *= size;
+    *scroll = fmax(0, fmin(*scroll, box.height - height));
     box.x = 0.5 * (width - box.width);
-    box.y = 0.5 * (height - box.height);
+    box.y = fmax(0.5 * (height - box.height), 0) - *scroll;
     ui_box(box.x, box.y, box.width, box.height, size * ui_text_height(), UI_SOLID_PAPER);
     write_help(&l, &box, size);
     return box;

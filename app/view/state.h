@@ -148,6 +148,7 @@ typedef struct view_state {
     view_panel panel;
     view_shares shares; /* those asked for last */
     bool help, overlay, sidebar, handles, recording;
+    double help_scroll;           /* pixels by which the help is moved up */
     int camera;                   /* the scene's camera chosen last */
     char dropped[VIEW_PATH_SIZE]; /* the material dropped last */
     char other[VIEW_PATH_SIZE];   /* another scene to open, or empty */

@@ -266,11 +266,16 @@ static view_box draw_over(int width, int height, double scale) {
     const view_row rows[] = { { .name = "Lampion" },
                               { .name = "Scene", .value = "a name with ü, 漢字 and \xff" } };
     ui_begin(width, height, scale, 0.1);
-    const view_box box = view_draw_rows(rows, 2, width, 10, 1);
+    const view_box box = view_draw_rows(rows, 2, width, 10, 1, UI_PAPER);
     CHECK_NEAR(width, box.x + box.width, 1e-3);
-    const view_box help = view_draw_help(width, height);
+    double scroll = -1e3;
+    view_box help = view_draw_help(width, height, &scroll);
     assert_true(help.x >= -0.01 && help.x + help.width <= width + 0.01);
-    assert_true(help.y >= -0.01 && help.y + help.height <= height + 0.01);
+    assert_true(help.y >= -0.01 && scroll == 0);
+    scroll = 1e6; /* to its end */
+    help = view_draw_help(width, height, &scroll);
+    assert_true(help.y + help.height <= height + 0.01);
+    CHECK_NEAR(fmax(help.height - height, 0), scroll, 1e-3);
     const view_box line =
         view_draw_message("a long message that must be broken", 120 * scale, 60, 400, 0.5);
     assert_true(line.width <= 120 * scale && line.height > 2 * ui_text_height());
