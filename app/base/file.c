@@ -96,6 +96,11 @@ bool file_read_descriptor(int fd, const char *path, size_t limit, void **data, s
     return read_all(fd, path, end > 0 ? (size_t)end : 0, limit, data, size, error);
 }
 
+const char *file_base_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 bool file_is_standard_input(const char *name) {
     for (const char *part = name; part; part = strchr(part, ':')) {
         part += *part == ':';

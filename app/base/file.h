@@ -12,6 +12,9 @@
  * buffer's last byte; release the buffer with free. */
 bool file_read(const char *path, size_t limit, void **data, size_t *size, base_error *error);
 
+/* Returns the last part of a path, the name in its folder. */
+const char *file_base_name(const char *path);
+
 /* Whether a name found in a file or a material is "-". Such a name is refused unless it comes from
  * the command line: no file may read the user's standard input. */
 bool file_is_standard_input(const char *name);

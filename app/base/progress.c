@@ -3,7 +3,6 @@
 #include "app/base/terminal.h"
 #include "app/base/timing.h"
 
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +16,8 @@
 static atomic_flag drawing = ATOMIC_FLAG_INIT;
 static double last_draw;
 static bool drawn;
+
+static progress_watch *_Atomic follower;
 
 /* When the current work was first seen, and how far it was; work that goes back has started
  * again. */
@@ -46,6 +47,13 @@ static void draw(const char *what, double time, double done) {
     fflush(stderr);
 }
 
+/* Tells who follows the work. */
+static void tell(double done) {
+    progress_watch *const watch = atomic_load(&follower);
+    if (watch)
+        atomic_store(&watch->percent, (int)(100.0 * done));
+}
+
 void progress_show(const char *what, double done) {
     if (atomic_flag_test_and_set(&drawing))
         return;
@@ -55,6 +63,7 @@ void progress_show(const char *what, double done) {
         first_done = done;
     }
     last_done = done;
+    tell(done);
     if (time - last_draw >= DRAW_PERIOD && !terminal_is_quiet() && terminal_can_draw()) {
         draw(what, time, done);
         last_draw = time;
@@ -70,5 +79,15 @@ void progress_end(void) {
         fputs("\r\033[K", stderr);
     drawn = false;
     last_done = 1.0;
+    tell(0.0);
     atomic_flag_clear(&drawing);
+}
+
+void progress_follow(progress_watch *watch) {
+    atomic_store(&follower, watch);
+}
+
+bool progress_cancelled(void) {
+    progress_watch *const watch = atomic_load(&follower);
+    return watch && atomic_load(&watch->cancelled);
 }

@@ -224,6 +224,7 @@ typedef struct guard {
     file_identity files[FILES_MAX];
     int socket, process; /* the latter becomes readable when the child exits */
     uint64_t base, input_bytes;
+    bool cancelled;
     char complaint[sizeof((base_error *)0)->text];
 } guard;
 
@@ -297,7 +298,8 @@ static void attend(guard *g) {
         poll(polled, 2, TICK);
         if (polled[1].revents && !listen_once(g))
             polled[1].fd = -1; /* nothing more to hear from the child, but its time still runs */
-        if (seconds_of(CLOCK_MONOTONIC) > end ||
+        g->cancelled |= g->job->cancelled && g->job->cancelled(g->job->context);
+        if (g->cancelled || seconds_of(CLOCK_MONOTONIC) > end ||
             (has_cpu && seconds_of(cpu) > cpu_seconds(g->input_bytes)))
             kill(g->child, SIGKILL);
     }
@@ -305,7 +307,10 @@ static void attend(guard *g) {
         continue;
 }
 
-static bool explain(int status, const char *complaint, const char *subject, base_error *error) {
+static bool explain(int status, const guard *g, base_error *error) {
+    const char *const complaint = g->complaint, *const subject = g->job->subject;
+    if (g->cancelled)
+        return base_fail(error, subject, "was cancelled");
     if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS)
         return true;
     if (WIFEXITED(status) && complaint[0])
@@ -383,7 +388,7 @@ static bool finish(started_job *started, void **block, size_t *size, base_error 
         }
     close(g->process);
     close(g->socket);
-    const bool ok = explain(status, g->complaint, g->job->subject, error) &&
+    const bool ok = explain(status, g, error) &&
                     map_output(started->output, g->job->subject, block, size, error);
     close(started->output);
     return ok;

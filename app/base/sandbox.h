@@ -25,6 +25,9 @@ typedef struct sandbox_job {
     /* Runs in the parent: receives how much of the work is done, 0 … 1, as the child reports it.
      * May be NULL. */
     void (*progress)(void *context, double done);
+
+    /* Runs in the parent, again and again: whether the job shall end at once. May be NULL. */
+    bool (*cancelled)(void *context);
 } sandbox_job;
 
 /* Runs the job. On success *block is what the work wrote, `size` bytes of a mapping of its own, to

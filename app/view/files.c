@@ -9,11 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *base_name(const char *file) {
-    const char *slash = strrchr(file, '/');
-    return slash ? slash + 1 : file;
-}
-
 /* --- materials -------------------------------------------------------------------------------- */
 
 int view_material_at_pointer(const view_state *s) {
@@ -32,7 +27,8 @@ bool view_replace_material(view_state *s, const char *name, const char *replacem
     }
     if (!view_set_material(&s->now, name, replacement))
         return base_fail(error, name, "cannot be replaced: too many materials, or too long a name");
-    view_say(s, "%s is %s", name, replacement ? base_name(replacement) : "as the scene has it");
+    view_say(s, "%s is %s", name,
+             replacement ? file_base_name(replacement) : "as the scene has it");
     return true;
 }
 
@@ -41,7 +37,7 @@ static bool take_material(view_state *s, const char *file, base_error *error) {
     view_ray ray;
     const view_hit hit = view_hit_at_pointer(s, &ray);
     if (hit.mesh < 0)
-        return base_fail(error, base_name(file), "is a material: drop it onto an object");
+        return base_fail(error, file_base_name(file), "is a material: drop it onto an object");
     if (!view_replace_material(s, s->world->materials[s->world->meshes[hit.mesh].material].name,
                                file, error))
         return false;
@@ -59,7 +55,7 @@ static bool take_lights(view_state *s, const char *file, base_error *error) {
                : base_fail(error, NULL, "out of memory");
     if (ok) {
         view_put_lights(s, lights, count);
-        view_say(s, "%s: %zu light%s", base_name(file), count, count == 1 ? "" : "s");
+        view_say(s, "%s: %zu light%s", file_base_name(file), count, count == 1 ? "" : "s");
     }
     free(lights);
     return ok;
@@ -84,7 +80,7 @@ static const struct {
 /* Opens a file by its extension. A colon separates the parameters of a material, so a name with a
  * colon is a material. */
 bool view_take_file(view_state *s, const char *file, base_error *error) {
-    const char *base = base_name(file), *dot = strrchr(base, '.');
+    const char *base = file_base_name(file), *dot = strrchr(base, '.');
     if (file_is_standard_input(file))
         return base_fail(error, file, "is not a file");
     for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)

@@ -153,7 +153,7 @@ static bool gives_way(viewer *v) {
 static bool is_cancelled(viewer *v) {
     const view_requests *r = &v->state.requests;
     const view_requests none = { .redraw = r->redraw };
-    return r->quit || (v->shoots && r->cancel) ||
+    return r->quit || ((v->shoots || v->loads) && r->cancel) || (v->loads && r->reload) ||
            (v->draws && (memcmp(r, &none, sizeof none) != 0 || gives_way(v)));
 }
 
@@ -173,9 +173,13 @@ void view_go_on(void *of) {
     view_pass_time(v);
     if (view_window_size(v->window, &width, &height))
         view_handle(&v->state, &(view_event) { .kind = VIEW_SIZE, .x = width, .y = height });
-    if (is_cancelled(v))
+    if (is_cancelled(v)) {
         atomic_store(&progress->cancelled, true);
-    v->percent = view_window_clock() > v->began + SLOW_SECONDS ? percent_of(progress) : 0;
+        atomic_store(&v->loading.cancelled, true);
+    }
+    v->percent = v->loads                                        ? atomic_load(&v->loading.percent)
+                 : view_window_clock() > v->began + SLOW_SECONDS ? percent_of(progress)
+                                                                 : 0;
     view_lay_out(v, v->announcement, false);
     if (v->laid != v->over || v->state.requests.redraw) {
         v->state.requests.redraw = false;

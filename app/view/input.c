@@ -73,8 +73,28 @@ static void type(viewer *v, const view_event *event) {
         view_keep(&v->state);
 }
 
+/* Takes what there is to do while the first scene is read: to cancel it. */
+static void take_waiting(viewer *v, const view_event *event) {
+    static const char *const ends[] = { "Quit", "Escape", "Ctrl+B", "Ctrl+Q" };
+    if (event->kind == VIEW_MOVE)
+        ui_move(event->x, event->y);
+    if (event->kind == VIEW_PRESS || event->kind == VIEW_RELEASE) {
+        view_lay_out(v, NULL, false);
+        ui_press((int)event->button, event->kind == VIEW_PRESS);
+        view_lay_out(v, NULL, false);
+    }
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
+        if ((event->kind == VIEW_KEY || event->kind == VIEW_ACT) &&
+            strcmp(event->text, ends[i]) == 0)
+            v->state.requests.quit = true;
+}
+
 void view_take_event(void *to, const view_event *event) {
     viewer *v = to;
+    if (!v->state.world) {
+        take_waiting(v, event);
+        return;
+    }
     const bool covered =
         v->state.drag == VIEW_DRAG_SIDEBAR || (v->state.drag == VIEW_DRAG_NONE && ui_covered());
     const bool typed = event->kind == VIEW_KEY || event->kind == VIEW_TYPE;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* labels.c - what the drawings over the image say: statistics, help, messages, the handles of the
  * selected light. */
+#include "app/base/file.h"
 #include "app/view/handles.h"
 #include "app/view/overlay.h"
 #include "app/view/panel.h"
@@ -63,13 +64,12 @@ static int fill_statistics(const viewer *v, view_row rows[STATISTICS_ROWS]) {
     const view_state *s = &v->state;
     const view_settings *d = v->drawn;
     const view_told *told = &v->told;
-    const char *slash = strrchr(d->scene, '/');
     view_pass passes[VIEW_PASSES];
     const int pass_count = view_passes(v, passes);
     char shading[96], text[96];
     int count = 0;
     add_row(rows, &count, "Lampion", "%s", "");
-    add_row(rows, &count, "Scene", "%.60s", slash ? slash + 1 : d->scene);
+    add_row(rows, &count, "Scene", "%.60s", file_base_name(d->scene));
     describe_shading(&d->shading[0], shading, sizeof shading);
     add_row(rows, &count, d->split == GPU_SPLIT_NONE ? "Shading" : "Left", "%s", shading);
     if (d->split != GPU_SPLIT_NONE) {
@@ -154,7 +154,29 @@ static void draw_values(const viewer *v, double x, double y) {
         view_draw_rows(rows, count, x, y, 1, UI_SOLID_PAPER); /* over the statistics */
 }
 
+/* Describes the window while the first scene is read. */
+static void lay_out_waiting(viewer *v) {
+    char text[64], percent[16] = "";
+    bool open = true;
+    ui_begin(v->state.now.width, v->state.now.height, v->state.scale, 0.01);
+    if (ui_sidebar_begin(VIEW_SIDEBAR_TITLE, VIEW_SIDEBAR_WIDTH * v->state.scale, &open)) {
+        ui_text(file_base_name(v->state.now.scene));
+        if (v->percent > 0)
+            snprintf(percent, sizeof percent, "  %d %%", v->percent);
+        snprintf(text, sizeof text, "%s%s", v->announcement, percent);
+        ui_text(text);
+        if (ui_button("Cancel", "Close the window (Escape)", false))
+            v->state.requests.quit = true;
+    }
+    ui_sidebar_end();
+    v->laid = ui_end();
+}
+
 void view_lay_out(viewer *v, const char *announcement, bool fresh) {
+    if (!v->state.world) {
+        lay_out_waiting(v);
+        return;
+    }
     const double scale = v->state.scale;
     const char *message = announcement ? announcement : v->state.message;
     const int width = v->state.now.width, height = v->state.now.height;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* reload.c - reloads the viewer's scene when its file changes. */
+#include "app/base/timing.h"
 #include "app/render/renderer/renderer.h"
 #include "app/view/nodes.h"
 #include "app/view/viewer.h"
@@ -22,20 +23,6 @@ static bool same_version(version a, version b) {
     return a.seconds == b.seconds && a.nanoseconds == b.nanoseconds && a.size == b.size;
 }
 
-scene *view_load_scene(const char *name, const scene_options *load,
-                       const scene_lights_options *lights, base_error *error) {
-    scene *world = calloc(1, sizeof *world);
-    if (!world) {
-        base_fail(error, NULL, "out of memory");
-        return NULL;
-    }
-    if (scene_load(name, load, world, error) && scene_apply_lights(world, lights, error))
-        return world;
-    scene_free(world);
-    free(world);
-    return NULL;
-}
-
 void view_free_scene(scene *world) {
     if (world)
         scene_free(world);
@@ -53,8 +40,40 @@ typedef struct loading {
 
 static bool load(void *of) {
     loading *l = of;
-    l->world = view_load_scene(l->name, &l->load, l->lights, l->error);
-    return l->world;
+    scene *world = l->world;
+    const bool ok = scene_load(l->name, &l->load, world, l->error) &&
+                    scene_apply_lights(world, l->lights, l->error);
+    if (ok)
+        scene_is_inside(world); /* takes long the first time */
+    return ok;
+}
+
+scene *view_load_scene(viewer *v, const char *name, const scene_options *options,
+                       const scene_lights_options *lights, base_error *error) {
+    loading l = { .load = *options, .lights = lights, .error = error };
+    l.world = calloc(1, sizeof *l.world);
+    if (!l.world) {
+        base_fail(error, NULL, "out of memory");
+        return NULL;
+    }
+    /* copies: another scene may be chosen meanwhile */
+    strcpy(l.name, name);
+    strcpy(l.variant, options->variant ? options->variant : "");
+    l.load.variant = options->variant ? l.variant : NULL;
+    v->loading = (progress_watch) { 0 };
+    v->loads = true;
+    v->announcement = "Loading the scene …";
+    v->load_began = timing_now();
+    progress_follow(&v->loading);
+    const bool ok = view_work_run(view_is_interactive(v) ? v->work : NULL, load, &l);
+    progress_follow(NULL);
+    v->loads = false;
+    v->announcement = NULL;
+    l.world->name = name;
+    if (ok)
+        return l.world;
+    view_free_scene(l.world);
+    return NULL;
 }
 
 /* Drops replacements of materials that the scene no longer has. */
@@ -166,16 +185,11 @@ void view_reload(viewer *v) {
     if (other)
         view_keep_session(v);
     const char *variant = other ? NULL : view_variant(&v->state.now);
-    loading l = { .load = o->load,
-                  .lights = other || v->another ? &own : &o->lights,
-                  .error = &error };
-    strcpy(l.name, other ? v->state.other : v->state.now.scene);
-    strcpy(l.variant, variant ? variant : "");
-    l.load.variant = variant ? l.variant : NULL;
-    v->announcement = "loading the scene …";
-    view_work_run(v->work, load, &l);
-    v->announcement = NULL;
-    scene *world = l.world;
+    scene_options load = o->load;
+    load.variant = variant;
+    scene *world = view_load_scene(v, other ? v->state.other : v->state.now.scene, &load,
+                                   other || v->another ? &own : &o->lights, &error);
+    v->state.requests.cancel = false;
     if (v->state.requests.reload || v->state.requests.quit) { /* another scene was chosen since */
         view_free_scene(world);
         return;

@@ -3,32 +3,21 @@
 #include "app/view/view.h"
 
 #include "app/base/error.h"
+#include "app/base/timing.h"
 #include "app/view/nodes.h"
 #include "app/view/ui.h"
 #include "app/view/viewer.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-/* --- the window's graphics -------------------------------------------------------------------- */
+#define WAITING_SECONDS 0.3 /* for the first scene, without a window */
 
-static bool open_graphics(viewer *v, base_error *error) {
-    v->window = view_window_open("Lampion", v->state.now.width, v->state.now.height,
-                                 view_take_event, v, error);
-    v->fresh = true;
-    if (!v->window)
-        return false;
-    view_show_title(v);
-    v->state.scale = view_window_scale(v->window);
-    return gpu_context_adopt(&v->context, error) &&
-           (v->compositor =
-                view_compositor_create(&v->context, v->part, v->tree, v->work, error)) &&
-           (ui_open(true, view_window_copy, view_window_paste) ||
-            base_fail(error, NULL, "the functions of libGL cannot be loaded"));
-}
+/* --- the window's graphics -------------------------------------------------------------------- */
 
 static void close_graphics(viewer *v) {
     ui_close();
@@ -36,6 +25,69 @@ static void close_graphics(viewer *v) {
     view_window_close(v->window);
     v->compositor = NULL;
     v->window = NULL;
+}
+
+static bool open_window(viewer *v, base_error *error) {
+    v->window = view_window_open("Lampion", v->state.now.width, v->state.now.height,
+                                 view_take_event, v, error);
+    if (!v->window)
+        return false;
+    view_show_title(v);
+    v->state.scale = view_window_scale(v->window);
+    return gpu_context_adopt(&v->context, error) &&
+           (ui_open(true, view_window_copy, view_window_paste) ||
+            base_fail(error, NULL, "the functions of libGL cannot be loaded"));
+}
+
+/* Prepares to draw the scene, in the window that is there or a new one. */
+static bool open_graphics(viewer *v, base_error *error) {
+    if (!v->window && !open_window(v, error))
+        return false;
+    view_compositor_destroy(v->compositor);
+    v->compositor = view_compositor_create(&v->context, v->part, v->tree, v->work, error);
+    v->fresh = true;
+    v->state.scale = view_window_scale(v->window);
+    return v->compositor;
+}
+
+/* Opens the window if the first scene takes long to read, and shows how far it is. */
+static void wait_for_scene(viewer *v) {
+    static const scene nothing = { .name = "" };
+    base_error ignored; /* it is found again when there is something to show */
+    if (timing_now() < v->load_began + WAITING_SECONDS)
+        return;
+    if (!v->window &&
+        !(open_window(v, &ignored) && (v->compositor = view_compositor_create(
+                                           &v->context, &nothing, NULL, v->work, &ignored)))) {
+        close_graphics(v);
+        v->load_began = HUGE_VAL;
+        return;
+    }
+    view_window_take_events(v->window, 0);
+    v->percent = atomic_load(&v->loading.percent);
+    if (v->state.requests.quit)
+        atomic_store(&v->loading.cancelled, true);
+    int width, height;
+    if (!view_window_size(v->window, &width, &height))
+        return;
+    v->state.now.width = width;
+    v->state.now.height = height;
+    view_lay_out(v, NULL, false);
+    if (v->laid == v->over)
+        return;
+    view_compositor_show(v->compositor, &v->state.now, 0);
+    ui_draw();
+    v->over = v->laid;
+    view_window_swap(v->window);
+}
+
+/* Goes on while something else is in work. */
+static void go_on(void *of) {
+    viewer *v = of;
+    if (v->state.world)
+        view_go_on(v);
+    else
+        wait_for_scene(v);
 }
 
 static bool restart(viewer *v, base_error *error) {
@@ -163,9 +215,11 @@ static bool open_viewer(viewer *v, base_error *error) {
     if (o->script && !view_script_read(o->script, &v->script, error))
         return false;
     v->seen = v->candidate = view_version_of(first->scene);
-    v->world = view_load_scene(o->settings.scene, &o->load, &o->lights, error);
-    if (!v->world)
-        return false;
+    memcpy(&v->state.now, first, sizeof *first); /* the window's size and title */
+    v->work = view_work_begin(go_on, v, error);
+    v->world = v->work ? view_load_scene(v, o->settings.scene, &o->load, &o->lights, error) : NULL;
+    if (!v->world || v->state.requests.quit)
+        return v->state.requests.quit;
     view_settings_rebase(first, v->world->origin);
     if (o->camera_wanted && !scene_place_camera(v->world, &o->camera, size, &first->camera, error))
         return false;
@@ -188,8 +242,7 @@ static bool open_viewer(viewer *v, base_error *error) {
         snprintf(v->record, sizeof v->record, "%s", o->record);
     v->state.recording = o->record != NULL;
     v->divisor = 1;
-    v->work = view_work_begin(view_go_on, v, error);
-    if (!v->work || !open_graphics(v, error))
+    if (!open_graphics(v, error))
         return false;
     v->passed_at = view_window_clock();
     v->state.sidebar =
@@ -207,7 +260,7 @@ bool view_run(const view_options *options, base_error *error) {
         return base_fail(error, NULL, "out of memory");
     v->options = options;
     const bool ok = open_viewer(v, error) && loop(v, error);
-    if (ok)
+    if (ok && v->state.world)
         view_keep_session(v);
     view_baking_stop(&v->baking);
     view_work_end(v->work);

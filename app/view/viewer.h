@@ -4,6 +4,7 @@
 #ifndef LAMPION_VIEW_VIEWER_H
 #define LAMPION_VIEW_VIEWER_H
 
+#include "app/base/progress.h"
 #include "app/view/baking.h"
 #include "app/view/ball.h"
 #include "app/view/compositor.h"
@@ -66,13 +67,16 @@ typedef struct viewer {
     bool fresh;                          /* whether `drawn` is not on the screen yet */
     bool held;                           /* whether it is not refined, until it changes */
     bool draws, shoots,
-        bakes;                /* whether `drawn` is in work, for the window or a file; its tables */
-    double began;             /* seconds: when it was begun */
-    int percent;              /* of what is in work; 0 unless it is slow */
-    int cancelled;            /* images, in all */
-    const char *announcement; /* about it, or NULL */
-    int sample;               /* of the refinement on the screen; -1: a preview */
-    int divisor;              /* of the next preview */
+        bakes;  /* whether `drawn` is in work, for the window or a file; its tables */
+    bool loads; /* whether a scene is read */
+    progress_watch loading;
+    double load_began;                /* seconds, of timing_now */
+    double began;                     /* seconds: when it was begun */
+    int percent;                      /* of what is in work; 0 unless it is slow */
+    int cancelled;                    /* images, in all */
+    const char *announcement;         /* about it, or NULL */
+    int sample;                       /* of the refinement on the screen; -1: a preview */
+    int divisor;                      /* of the next preview */
     double changed_at, frame_seconds; /* seconds: of the last change; per moving frame */
     double slow_seconds;              /* of the frame before, if it had the same size; else 0 */
     bool moves;                       /* whether the camera moved between the last two frames */
@@ -103,8 +107,9 @@ static inline bool view_is_interactive(const viewer *v) {
 
 version view_version_of(const char *path);
 
-/* Loads a scene with the requested lights; returns NULL on failure. */
-scene *view_load_scene(const char *name, const scene_options *load,
+/* Loads a scene with the requested lights, beside the window if a person waits for it; returns NULL
+ * on failure, or if it was cancelled. */
+scene *view_load_scene(viewer *v, const char *name, const scene_options *load,
                        const scene_lights_options *lights, base_error *error);
 void view_free_scene(scene *world);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/work.h"
 
+#include <omp.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <sys/resource.h>
@@ -58,6 +59,7 @@ view_work *view_work_begin(void (*meanwhile)(void *user), void *user, base_error
     pthread_condattr_setclock(&steady, CLOCK_MONOTONIC);
     pthread_cond_init(&work->changed, &steady);
     pthread_condattr_destroy(&steady);
+    omp_get_max_threads(); /* see app/view/tree.c */
     if (pthread_create(&work->thread, NULL, serve, work) == 0)
         return work;
     free(work);

@@ -56,6 +56,32 @@ static void the_work_tells_how_much_of_it_is_done(void **state) {
         assert_true(told[i] > (i ? told[i - 1] : 0) && told[i] <= 1);
 }
 
+static bool work_for_ever(void *context, int output, base_error *error) {
+    (void)context;
+    (void)output;
+    (void)error;
+    for (volatile int always = 1; always;)
+        continue;
+    return false;
+}
+
+static bool at_the_third_time(void *context) {
+    return ++*(int *)context == 3;
+}
+
+static void a_cancelled_job_ends_at_once(void **state) {
+    (void)state;
+    int asked = 0;
+    base_error error = { "" };
+    void *block;
+    size_t size;
+    const sandbox_job job = {
+        .subject = subject, .context = &asked, .work = work_for_ever, .cancelled = at_the_third_time
+    };
+    assert_false(sandbox_run(&job, &block, &size, &error));
+    assert_string_equal(error.text, "SCENE: was cancelled");
+}
+
 typedef struct numbered {
     int number;
 } numbered;
@@ -88,6 +114,7 @@ static void jobs_run_side_by_side(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_work_tells_how_much_of_it_is_done),
+        cmocka_unit_test(a_cancelled_job_ends_at_once),
         cmocka_unit_test(jobs_run_side_by_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

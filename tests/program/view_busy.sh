@@ -75,3 +75,26 @@ until_true "a screenshot" test -s lampion-0001.png
 "$PROGRAM" render --from lampion-0001.png -o again.png
 cmp lampion-0001.png again.png || fail "the image is another one than without a window"
 quit
+
+# While the first scene is read, here by a child that is stopped, there is a window already, in which that is cancelled.
+awk 'BEGIN { for (i = 0; i < 90000; i++) print "v", i % 300, i % 7, int(i / 300)
+             for (i = 1; i < 89700; i++) print "f", i, i + 1, i + 300 }' >large.obj
+rm -f state.json
+"$PROGRAM" view large.obj --state state.json 2>view.err &
+viewer=$!
+child=
+for _ in $(seq 1000); do
+    child=$(cat /proc/$viewer/task/*/children 2>/dev/null) || true
+    [ -z "$child" ] || break
+    sleep 0.01
+done
+kill -STOP $child || fail "no child reads the scene"
+has_window() { xdotool search --name 'large.obj - Lampion' >window.id 2>/dev/null; }
+until_true "a window before the scene" has_window
+[ ! -e state.json ] || fail "the scene was not slow"
+xdotool windowfocus "$(head -n 1 window.id)" 2>/dev/null || true
+xdotool key Escape
+status=0
+wait $viewer || status=$?
+[ $status = 0 ] || fail "cancelling the first scene: status $status: $(cat view.err)"
+[ ! -s view.err ] || fail "cancelling the first scene says: $(cat view.err)"

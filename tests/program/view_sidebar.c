@@ -522,6 +522,31 @@ static void the_title_folds_the_sidebar(void **unused) {
     assert_true(v.state.sidebar && ui_find("Camera", &x, &y));
 }
 
+/* While the first scene is read there is nothing but how far that is, and a button against it. */
+static void the_first_scene_is_cancelled(void **unused) {
+    (void)unused;
+    double x, y;
+    const scene *world_of = v.state.world;
+    v.state.world = NULL;
+    v.announcement = "Loading the scene …";
+    for (int way = 0; way < 2; way++) {
+        view_lay_out(&v, NULL, false);
+        const uint64_t before = v.laid;
+        v.percent = 40 + way;
+        view_lay_out(&v, NULL, false);
+        assert_true(v.laid != before && !ui_find("Camera", &x, &y));
+        take((view_event) { .kind = VIEW_KEY, .text = "m" });
+        assert_false(v.state.requests.quit);
+        if (way)
+            take((view_event) { .kind = VIEW_KEY, .text = "Escape" });
+        else
+            click_on("Cancel");
+        assert_true(v.state.requests.quit);
+        v.state.requests.quit = false;
+    }
+    v.state.world = world_of;
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(every_action_is_the_same_by_button_key_and_script),
@@ -540,6 +565,7 @@ int main(void) {
         TEST(what_happens_over_the_sidebar_does_not_reach_the_image),
         TEST(handles_are_drawn_while_they_are_on),
         TEST(a_drag_of_the_image_stays_the_image_s),
+        TEST(the_first_scene_is_cancelled),
         TEST(a_click_closes_the_help),
         TEST(the_title_folds_the_sidebar),
     };
