@@ -55,19 +55,21 @@ void view_images_put(view_images *images, bool good) {
     }
 }
 
-static gpu_layout layout_of(const view_settings *settings, float line) {
-    return (gpu_layout) { settings->width, settings->height, settings->split, settings->divider,
-                          line };
+static gpu_layout layout_of(const view_settings *settings, float line, int seen) {
+    return (gpu_layout) {
+        settings->width, settings->height, settings->split, settings->divider, line, seen
+    };
 }
 
-void view_images_show(const view_images *images, const view_settings *settings, float line) {
-    const gpu_layout layout = layout_of(settings, line);
+void view_images_show(const view_images *images, const view_settings *settings, float line,
+                      int seen) {
+    const gpu_layout layout = layout_of(settings, line, seen);
     gpu_screen_show(images->screen, &layout);
 }
 
 bool view_images_write(const view_images *images, const view_settings *settings, const char *path,
                        base_error *error) {
-    const gpu_layout layout = layout_of(settings, 0);
+    const gpu_layout layout = layout_of(settings, 0, 0);
     unsigned char *rgb8 = malloc(3 * (size_t)settings->width * (size_t)settings->height);
     if (!rgb8)
         return base_fail(error, path, "out of memory");

@@ -28,8 +28,10 @@ bool view_images_take(view_images *images, int side, any_renderer *renderer,
 /* Puts the images of the CPU on the screen, or drops them unless they are `good`. */
 void view_images_put(view_images *images, bool good);
 
-/* Show the composed image, with a line of that width at the divider, or write it to a file. */
-void view_images_show(const view_images *images, const view_settings *settings, float line);
+/* Show so many columns of the composed image, 0: all, with a line of that width at the divider, or
+ * write it to a file. */
+void view_images_show(const view_images *images, const view_settings *settings, float line,
+                      int seen);
 bool view_images_write(const view_images *images, const view_settings *settings, const char *path,
                        base_error *error);
 

@@ -588,8 +588,8 @@ bool view_compositor_split(view_compositor *s, const view_settings *settings, in
     return ok;
 }
 
-void view_compositor_show(view_compositor *s, const view_settings *settings, float line) {
-    view_images_show(&s->images, settings, line);
+void view_compositor_show(view_compositor *s, const view_settings *settings, float line, int seen) {
+    view_images_show(&s->images, settings, line, seen);
 }
 
 bool view_compositor_write(view_compositor *s, const view_settings *settings, const char *path,

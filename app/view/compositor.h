@@ -62,8 +62,10 @@ bool view_compositor_expose(view_compositor *compositor, const view_settings *se
 bool view_compositor_split(view_compositor *compositor, const view_settings *settings, int side,
                            int x, int y, cpu_split *split, size_t *light_count, base_error *error);
 
-/* Show the image drawn last in the window, or read it for a screenshot. */
-void view_compositor_show(view_compositor *compositor, const view_settings *settings, float line);
+/* Show the image drawn last in the window, as view_images_show does, or read it for a screenshot.
+ */
+void view_compositor_show(view_compositor *compositor, const view_settings *settings, float line,
+                          int seen);
 bool view_compositor_write(view_compositor *compositor, const view_settings *settings,
                            const char *path, base_error *error);
 

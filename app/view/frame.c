@@ -19,7 +19,8 @@ bool view_steps_time(const viewer *v) {
 static void show(viewer *v) {
     const double began = view_window_clock();
     const view_settings *shown = v->good->width > 0 ? v->good : v->shown;
-    view_compositor_show(v->compositor, shown, (float)(2 * v->state.scale));
+    view_compositor_show(v->compositor, shown, (float)(2 * v->state.scale),
+                         v->state.sidebar ? (int)v->uncovered : 0);
     ui_draw();
     v->over = v->laid;
     view_window_swap(v->window);

@@ -59,7 +59,7 @@ static void screens_are_read_from_the_top_whole_divided_and_as_differences(void 
     base_error error = { "" };
     open_fixture(&f);
     for (int split = 0; split < GPU_SPLITS; split++) {
-        const gpu_layout layout = { WIDTH, HEIGHT, (gpu_split)split, 0.5f, 4 };
+        const gpu_layout layout = { WIDTH, HEIGHT, (gpu_split)split, 0.5f, 4, 0 };
         expect(gpu_screen_read(f.screen, &layout, seen, &error), &error);
         for (int i = 0; i < 3 * PIXELS; i++)
             assert_true(abs(seen[i] - shown(&f, &layout, i / 3 % WIDTH, i)) <= 1);

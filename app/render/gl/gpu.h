@@ -130,6 +130,7 @@ typedef struct gpu_layout {
     gpu_split split;
     float divider; /* its position, as a fraction of the width */
     float line;    /* its width in pixels; 0: not drawn */
+    int seen;      /* columns from the left that are shown, the others are dark; 0: all */
 } gpu_layout;
 
 /* Draws the screen into framebuffer 0's window, which stays bound to be drawn over, or reads it to

@@ -94,14 +94,29 @@ static void compose(gpu_screen *s, const gpu_layout *layout, GLuint framebuffer,
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+/* Darkens the columns that are not seen; what is drawn next leaves them alone. Cleared, they cost
+ * less than a rectangle that is drawn over the image. */
+static void cut_off(const gpu_layout *layout) {
+    static const float dark[4] = { 0.06f, 0.06f, 0.06f, 1 };
+    enum { FAR = 1 << 20 };
+    if (layout->seen == 0)
+        return;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(layout->seen, 0, FAR, FAR);
+    glClearNamedFramebufferfv(0, GL_COLOR, 0, dark);
+    glScissor(0, 0, layout->seen, FAR);
+}
+
 void gpu_screen_show(gpu_screen *s, const gpu_layout *layout) {
     const screen_side *side = &s->sides[0];
+    cut_off(layout);
     if (layout->split == GPU_SPLIT_NONE && side->texture) { /* a blit is cheaper than a shader */
         glBlitNamedFramebuffer(side->framebuffer, 0, 0, 0, side->width, side->height, 0,
                                layout->height, layout->width, 0, GL_COLOR_BUFFER_BIT, GL_LINEAR);
     } else {
         compose(s, layout, 0, true);
     }
+    glDisable(GL_SCISSOR_TEST);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     /* the program in use may be deleted: to use it again, as what saves and restores the state
      * does, is an error */
