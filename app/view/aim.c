@@ -16,13 +16,6 @@ const char *const view_aim_names[VIEW_AIMS + 1] = {
     [VIEW_AIM_RIM] = "rim",
 };
 
-int view_find_aim(const char *name) {
-    for (int aim = 0; aim < VIEW_AIMS; aim++)
-        if (strcmp(view_aim_names[aim], name) == 0)
-            return aim;
-    return -1;
-}
-
 /* --- directions ------------------------------------------------------------------------------- */
 
 lmp_vec3 view_aim_direction(view_aim aim, lmp_vec3 normal, lmp_vec3 view) {

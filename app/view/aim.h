@@ -8,9 +8,6 @@
 
 extern const char *const view_aim_names[VIEW_AIMS + 1]; /* NULL-terminated */
 
-/* Returns the aim of that name, or -1. */
-int view_find_aim(const char *name);
-
 /* Chooses what dragging does; the one chosen already is switched off. */
 void view_choose_aim(view_state *state, int aim);
 

@@ -7,6 +7,7 @@
 #include "app/view/panel.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #define FRAME_SECONDS (1.0 / 24)
@@ -52,11 +53,6 @@ static void change_tone(view_state *s, int step) {
     view_say(s, "Tone curve: %s", image_tones[s->now.tone].name);
 }
 
-static void expose(view_state *s, int unused) {
-    (void)unused;
-    s->requests.expose = true;
-}
-
 /* Splits the image, or joins it again. Both sides begin with the same settings, so that the first
  * change shows its effect. */
 static void split(view_state *s, int kind) {
@@ -93,11 +89,6 @@ static void swap_sides(view_state *s, int unused) {
 }
 
 /* --- time ------------------------------------------------------------------------------------- */
-
-static void play(view_state *s, int unused) {
-    (void)unused;
-    s->playing = !s->playing;
-}
 
 static void change_path(view_state *s, int step) {
     s->path = (s->path + step) % s->path_count;
@@ -177,11 +168,20 @@ static void next_camera(view_state *s, int step) {
         first_camera(s, 0);
 }
 
-enum { TOGGLE_HELP, TOGGLE_OVERLAY, TOGGLE_HANDLES, TOGGLE_SIDEBAR };
+/* What an action switches or requests, by its offset in the state. */
+#define SWITCH(flag)  toggle, offsetof(view_state, flag)
+#define REQUEST(what) request, offsetof(view_state, requests.what)
 
-static void toggle(view_state *s, int what) {
-    bool *const flags[] = { &s->help, &s->overlay, &s->handles, &s->sidebar };
-    *flags[what] = !*flags[what];
+static bool *flag_at(const view_state *s, int offset) {
+    return (bool *)((char *)(uintptr_t)s + offset);
+}
+
+static void toggle(view_state *s, int flag) {
+    *flag_at(s, flag) = !*flag_at(s, flag);
+}
+
+static void request(view_state *s, int what) {
+    *flag_at(s, what) = true;
 }
 
 /* Switches the framing, as --framing inside and outside do. */
@@ -207,40 +207,15 @@ static void step_back(view_state *s, int unused) {
         s->requests.cancel = true;
 }
 
-enum {
-    REQUEST_QUIT,
-    REQUEST_SHOT,
-    REQUEST_COMMAND,
-    REQUEST_RECORD,
-    REQUEST_RELOAD,
-    REQUEST_RESTART,
-    REQUEST_FULLSCREEN,
-    REQUEST_SAVE,
-    REQUEST_COPY,
-    REQUEST_RESUME,
-    REQUEST_SHARES,
-    REQUEST_CANCEL
-};
-
-static void request(view_state *s, int what) {
-    bool *const requests[] = { &s->requests.quit,       &s->requests.shot,   &s->requests.command,
-                               &s->requests.record,     &s->requests.reload, &s->requests.restart,
-                               &s->requests.fullscreen, &s->requests.save,   &s->requests.copy,
-                               &s->requests.resume,     &s->requests.shares, &s->requests.cancel };
-    *requests[what] = true;
-}
-
 const view_key view_keys[] = {
     { NULL, "Files", NULL, NULL, 0, NULL },
     { "Ctrl+O", "Ctrl O, drop a file", "scene, lights, material", view_ask_file, 0, "Open" },
-    { "F12", "F12  P", "screenshot with its settings", request, REQUEST_SHOT, "Screenshot" },
-    { "p", NULL, NULL, request, REQUEST_SHOT, NULL },
-    { "Ctrl+C", "Ctrl C", "screenshot, and the command for it", request, REQUEST_COMMAND,
-      "Copy command" },
-    { "Ctrl+S", "Ctrl S", "the lights as a file", request, REQUEST_SAVE, "Export lights" },
-    { "Ctrl+E", "Ctrl E", "a copy of the glTF with them", request, REQUEST_COPY, "Export scene" },
-    { "Ctrl+R", "Ctrl R", "camera, lights as you left them", request, REQUEST_RESUME,
-      "Last session" },
+    { "F12", "F12  P", "screenshot with its settings", REQUEST(shot), "Screenshot" },
+    { "p", NULL, NULL, REQUEST(shot), NULL },
+    { "Ctrl+C", "Ctrl C", "screenshot, and the command for it", REQUEST(command), "Copy command" },
+    { "Ctrl+S", "Ctrl S", "the lights as a file", REQUEST(save), "Export lights" },
+    { "Ctrl+E", "Ctrl E", "a copy of the glTF with them", REQUEST(copy), "Export scene" },
+    { "Ctrl+R", "Ctrl R", "camera, lights as you left them", REQUEST(resume), "Last session" },
 
     { NULL, "Scene", NULL, NULL, 0, NULL },
     { "Ctrl+T", "Ctrl T", "select the node pointed at", view_pick_node, 0, "Pick" },
@@ -272,7 +247,7 @@ const view_key view_keys[] = {
     { "G", NULL, NULL, change_window, -1, "Previous filter" },
     { ",", ",  .", "darker, brighter by 1/3 stop", change_exposure, -1, "Darker" },
     { ".", NULL, NULL, change_exposure, 1, "Brighter" },
-    { "0", "0", "exposure to suit the image", expose, 0, "Expose" },
+    { "0", "0", "exposure to suit the image", REQUEST(expose), "Expose" },
     { "u", "U", "tone curve", change_tone, 1, "Next tone curve" },
     { "U", NULL, NULL, change_tone, -1, "Previous tone curve" },
     { "z", "Z", "shadows on, off", toggle_shadows, 0, "Shadows" },
@@ -292,7 +267,7 @@ const view_key view_keys[] = {
 
     { NULL, "Lights", NULL, NULL, 0, NULL },
     { NULL, "left drag on one", "move it (wheel: in depth)", NULL, 0, NULL },
-    { "Ctrl+H", "Ctrl H", "handles on, off (Ctrl: by steps)", toggle, TOGGLE_HANDLES, "Handles" },
+    { "Ctrl+H", "Ctrl H", "handles on, off (Ctrl: by steps)", SWITCH(handles), "Handles" },
     { "Tab", "Tab", "select the next", view_select_light, 1, "Next light" },
     { "Shift+Tab", NULL, NULL, view_select_light, -1, "Previous light" },
     { "n", "N", "new, over what is pointed at", view_add_light, 0, "Add light" },
@@ -315,31 +290,31 @@ const view_key view_keys[] = {
       "Reflection" },
     { "2", NULL, NULL, view_choose_aim, VIEW_AIM_ILLUMINATION, "Illumination" },
     { "3", NULL, NULL, view_choose_aim, VIEW_AIM_RIM, "Rim" },
-    { "L", "Shift L", "which ones make what is pointed at", request, REQUEST_SHARES, "Shares" },
+    { "L", "Shift L", "which ones make what is pointed at", REQUEST(shares), "Shares" },
     { "j", "J  Shift J", "paler, purer", view_fade_lights, 1, "Paler" },
     { "J", NULL, NULL, view_fade_lights, -1, "Purer" },
     { NULL, "", "none selected: all of them", NULL, 0, NULL },
 
     { NULL, "Time", NULL, NULL, 0, NULL },
-    { "space", "Space", "play, pause", play, 0, "Play, pause" },
+    { "space", "Space", "play, pause", SWITCH(playing), "Play, pause" },
     { "o", "O", "next path: orbit, bounce, …", change_path, 1, "Next path" },
     { "Left", "Left  Right", "one frame back, forward", step_time, -1, "Frame back" },
     { "Right", NULL, NULL, step_time, 1, "Frame forward" },
     { "b", "B", "back to the start", rewind_time, 0, "To the start" },
 
     { NULL, "Window", NULL, NULL, 0, NULL },
-    { "r", "R", "record an image sequence", request, REQUEST_RECORD, "Record" },
-    { "i", "I", "statistics on, off", toggle, TOGGLE_OVERLAY, "Statistics" },
-    { "F5", "F5", "read the scene again", request, REQUEST_RELOAD, "Read again" },
-    { "Shift+F5", "Shift F5", "start the graphics again", request, REQUEST_RESTART,
+    { "r", "R", "record an image sequence", REQUEST(record), "Record" },
+    { "i", "I", "statistics on, off", SWITCH(overlay), "Statistics" },
+    { "F5", "F5", "read the scene again", REQUEST(reload), "Read again" },
+    { "Shift+F5", "Shift F5", "start the graphics again", REQUEST(restart),
       "Restart the graphics" },
-    { "F3", "F3", "panel at the side on, off", toggle, TOGGLE_SIDEBAR, "Panel" },
-    { "F11", "F11", "full screen", request, REQUEST_FULLSCREEN, "Full screen" },
-    { "F1", "F1  ?", "this help", toggle, TOGGLE_HELP, "Help" },
-    { "?", NULL, NULL, toggle, TOGGLE_HELP, NULL },
+    { "F3", "F3", "panel at the side on, off", SWITCH(sidebar), "Panel" },
+    { "F11", "F11", "full screen", REQUEST(fullscreen), "Full screen" },
+    { "F1", "F1  ?", "this help", SWITCH(help), "Help" },
+    { "?", NULL, NULL, SWITCH(help), NULL },
     { "Escape", "Escape", "close the help, deselect, cancel", step_back, 0, "Close, deselect" },
-    { "Ctrl+B", "Ctrl B", "cancel drawing it finer, tables", request, REQUEST_CANCEL, "Cancel" },
-    { "Ctrl+Q", "Ctrl Q", "quit", request, REQUEST_QUIT, "Quit" },
+    { "Ctrl+B", "Ctrl B", "cancel drawing it finer, tables", REQUEST(cancel), "Cancel" },
+    { "Ctrl+Q", "Ctrl Q", "quit", REQUEST(quit), "Quit" },
     { NULL, NULL, NULL, NULL, 0, NULL },
 };
 
@@ -348,13 +323,12 @@ bool view_is_heading(const view_key *row) {
 }
 
 bool view_is_on(const view_state *s, const view_key *row) {
-    const bool flags[] = { s->help, s->overlay, s->handles, s->sidebar };
     if (row->act == toggle)
-        return flags[row->argument];
+        return *flag_at(s, row->argument);
     if (row->act == view_choose_aim)
         return s->aim == (view_aim)row->argument;
     if (row->act == split)
         return s->now.split == (gpu_split)row->argument;
     return (row->act == toggle_shadows && s->now.shadows) ||
-           (row->act == toggle_bounces && s->now.bounces > 0) || (row->act == play && s->playing);
+           (row->act == toggle_bounces && s->now.bounces > 0);
 }

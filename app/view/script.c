@@ -55,16 +55,6 @@ static bool numbers_at(const words *w, int first, int count, double most) {
     return w->count == first + count;
 }
 
-static bool find_button(const char *name, view_button *button) {
-    static const char *const names[] = { "left", "middle", "right" };
-    for (int i = 0; i < 3; i++)
-        if (strcmp(names[i], name) == 0) {
-            *button = (view_button)i;
-            return true;
-        }
-    return false;
-}
-
 /* Reads an action's name in quotes. */
 static bool read_action(const char *quoted, view_script_line *line) {
     const size_t length = strlen(quoted);
@@ -77,6 +67,7 @@ static bool read_action(const char *quoted, view_script_line *line) {
 
 /* Reads the event after the time; returns false if the words are not an event. */
 static bool read_event(const words *w, view_script_line *line) {
+    static const char *const buttons[] = { "left", "middle", "right", NULL };
     view_event *e = &line->event;
     const char *what = w->text[1];
     if (strcmp(what, "move") == 0 || strcmp(what, "size") == 0) {
@@ -105,7 +96,9 @@ static bool read_event(const words *w, view_script_line *line) {
         return false;
     if (strcmp(what, "press") == 0 || strcmp(what, "release") == 0) {
         e->kind = what[0] == 'p' ? VIEW_PRESS : VIEW_RELEASE;
-        return find_button(w->text[2], &e->button);
+        const int button = view_find_name(buttons, w->text[2]);
+        e->button = button < 0 ? VIEW_LEFT : (view_button)button;
+        return button >= 0;
     }
     if (strcmp(what, "hold") == 0 || strcmp(what, "free") == 0) {
         e->kind = what[0] == 'h' ? VIEW_HOLD : VIEW_FREE;
@@ -118,7 +111,7 @@ static bool read_event(const words *w, view_script_line *line) {
     strcpy(line->text, w->text[2]);
     if (strcmp(what, "aim") == 0) {
         e->kind = VIEW_SET;
-        const bool known = view_find_aim(line->text) >= 0;
+        const bool known = view_find_name(view_aim_names, line->text) >= 0;
         snprintf(line->text, sizeof line->text, "view/aim %s", w->text[2]);
         return known;
     }

@@ -34,15 +34,6 @@ static bool read_index(const char *path, size_t count, size_t *index, const char
     return isdigit((unsigned char)path[0]) && *index < count;
 }
 
-static bool read_choice(const char *typed, const char *const *choices, int *chosen) {
-    for (int i = 0; choices[i]; i++)
-        if (strcmp(typed, choices[i]) == 0) {
-            *chosen = i;
-            return true;
-        }
-    return false;
-}
-
 /* --- lights ----------------------------------------------------------------------------------- */
 
 /* Returns the light as JSON with one member replaced, and without others that set the same value.
@@ -104,9 +95,9 @@ static bool set_view(view_state *s, const char *name, const char *typed, base_er
              number < (double)s->world->camera_count)
         view_use_camera(s, (int)number);
     else if (strcmp(name, "path") == 0 &&
-             read_choice(typed, (const char *const *)s->path_names, &path))
+             (path = view_find_name((const char *const *)s->path_names, typed)) >= 0)
         s->path = path;
-    else if (strcmp(name, "aim") == 0 && (aim = view_find_aim(typed)) >= 0) {
+    else if (strcmp(name, "aim") == 0 && (aim = view_find_name(view_aim_names, typed)) >= 0) {
         if (s->aim != (view_aim)aim) /* the same again would end it */
             view_choose_aim(s, aim);
     } else
@@ -134,9 +125,9 @@ static bool replace_member(json_t *root, const char *path, const char *typed) {
 
 /* Takes back bands that a method does not have. */
 static void hold_bands(json_t *look) {
-    int method;
     const char *name = json_string_value(json_object_get(look, "method"));
-    if (!name || !read_choice(name, method_names(), &method))
+    const int method = name ? view_find_name(method_names(), name) : -1;
+    if (method < 0)
         return;
     json_t *const bands = json_object_get(look, "bands");
     const int most = method_table[method].bands_max[DEVICE_AUTO];

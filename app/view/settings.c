@@ -31,6 +31,13 @@ const char *view_material_of(const view_settings *s, const char *material_name) 
     return index < 0 ? NULL : s->materials[index] + strlen(material_name) + 1;
 }
 
+int view_find_name(const char *const *names, const char *name) {
+    for (int i = 0; names[i]; i++)
+        if (strcmp(names[i], name) == 0)
+            return i;
+    return -1;
+}
+
 bool view_set_material(view_settings *s, const char *material_name, const char *replacement) {
     int index = find_material(s, material_name);
     if (!replacement) {
@@ -175,12 +182,9 @@ static bool read_floats(const json_t *object, const char *name, double minimum, 
 static bool read_choice(const json_t *object, const char *name, const char *const *choices,
                         int *value) {
     const json_t *item = json_object_get(object, name);
-    for (int i = 0; json_is_string(item) && choices[i]; i++)
-        if (strcmp(choices[i], json_string_value(item)) == 0) {
-            *value = i;
-            return true;
-        }
-    return false;
+    const int found = json_is_string(item) ? view_find_name(choices, json_string_value(item)) : -1;
+    *value = found < 0 ? *value : found;
+    return found >= 0;
 }
 
 /* Reads a choice, or returns `absent` if the object does not have it. */

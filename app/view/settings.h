@@ -69,6 +69,9 @@ static inline size_t view_settings_size(const view_settings *settings) {
     return offsetof(view_settings, lights) + settings->light_count * sizeof *settings->lights;
 }
 
+/* Returns the index of a name among others, ended by NULL, or -1. */
+int view_find_name(const char *const *names, const char *name);
+
 extern const char *const view_split_names[GPU_SPLITS + 1]; /* NULL-terminated */
 
 /* Replaces materials of that name by another, as --material does, or removes the replacement if

@@ -221,9 +221,7 @@ static void put_materials(viewer *v) {
 
 static void put_time(viewer *v) {
     view_state *s = &v->state;
-    const char *paths[VIEW_PATHS_MAX + 1] = { NULL };
-    memcpy(paths, s->path_names, (size_t)s->path_count * sizeof *paths);
-    put_choice(s, "path", "view/path", paths, s->path);
+    put_choice(s, "path", "view/path", (const char *const *)s->path_names, s->path);
     put_number(s, "seconds", "view/seconds", (float)s->seconds, 1e6f, 0.02f);
     put_flag(s, "playing", "view/playing", s->playing);
 }

@@ -21,6 +21,7 @@ static bool add_path(view_state *s, const char *name, base_error *error) {
     if (!animation_open(name, s->world, &s->paths[s->path_count], error))
         return false;
     s->path_names[s->path_count++] = name;
+    s->path_names[s->path_count] = NULL;
     return true;
 }
 
@@ -126,7 +127,7 @@ static void follow_origin(view_state *s) {
 typedef struct kept_paths {
     const scene *world;
     animation *paths[VIEW_PATHS_MAX];
-    const char *names[VIEW_PATHS_MAX];
+    const char *names[VIEW_PATHS_MAX + 1];
     int count, path;
 } kept_paths;
 

@@ -121,9 +121,9 @@ enum { VIEW_PATHS_MAX = 4, VIEW_MESSAGE_SIZE = 256 };
 typedef struct view_state {
     view_settings now; /* lights at rest, without animation */
     const scene *world;
-    view_tree *tree;                  /* of what is not hidden of it */
-    animation *paths[VIEW_PATHS_MAX]; /* owned */
-    const char *path_names[VIEW_PATHS_MAX];
+    view_tree *tree;                            /* of what is not hidden of it */
+    animation *paths[VIEW_PATHS_MAX];           /* owned */
+    const char *path_names[VIEW_PATHS_MAX + 1]; /* ended by NULL */
     int path_count, path;
     bool playing;
     double seconds;                                /* of the animation */
