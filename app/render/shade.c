@@ -15,7 +15,6 @@ struct shade_job {
     lmp_light *lights;      /* those that the method sums, then areas that zonal sums beside it */
     size_t summed, beside;  /* how many */
     const lmp_field *field; /* of the lights that the method sums, or NULL */
-    double start;
 };
 
 static lmp_vec3_array from(const lmp_vec3_array *planes, size_t first) {
@@ -287,7 +286,7 @@ static void set_areas_aside(shade_job *job) {
             job->lights[job->summed + job->beside++] = job->frame->lights[i].emitter;
 }
 
-shade_job *shade_begin(const render_frame *frame, const render_surfaces *surfaces) {
+shade_job *shade_begin(const render_frame *frame, shade_want *want, void *user) {
     const bool by_field = method_table[frame->method].reads & METHOD_READS_FIELD;
     shade_job *job = calloc(1, sizeof *job);
     if (!job)
@@ -301,8 +300,7 @@ shade_job *shade_begin(const render_frame *frame, const render_surfaces *surface
     if (job->lights)
         set_areas_aside(job);
     if (job->lights && by_field)
-        job->field = shade_field_follow(frame->field, job->lights, job->summed, surfaces);
-    job->start = timing_now();
+        job->field = shade_field_follow(frame->field, job->lights, job->summed, want, user);
     if (job->lights && (job->field || !by_field))
         return job;
     shade_end(job);
@@ -312,16 +310,23 @@ shade_job *shade_begin(const render_frame *frame, const render_surfaces *surface
 void shade_end(shade_job *job) {
     if (!job)
         return;
-    if (job->field)
-        shade_field_note(job->frame->field, 1e3 * (timing_now() - job->start));
     free(job->lights);
     free(job);
 }
 
+void shade_note(const shade_job *job, double milliseconds) {
+    if (job->field)
+        shade_field_note(job->frame->field, milliseconds);
+}
+
 bool shade_frame(const render_frame *frame, const render_surfaces *surfaces, float *rgba,
                  base_error *error) {
-    shade_job *job = shade_begin(frame, surfaces);
+    render_surfaces wanted = *surfaces;
+    shade_job *job = shade_begin(frame, shade_want_surfaces, &wanted);
+    const double start = timing_now();
     const bool ok = job && shade_tiles(job, surfaces, NULL, rgba);
+    if (ok)
+        shade_note(job, 1e3 * (timing_now() - start));
     shade_end(job);
     return ok || base_fail(error, NULL, "out of memory");
 }

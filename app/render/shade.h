@@ -14,10 +14,20 @@ bool shade_frame(const render_frame *frame, const render_surfaces *surfaces, flo
 /* The data that a frame's pixels are shaded with. */
 typedef struct shade_job shade_job;
 
-/* Begins shading with the frame's lights; `surfaces` are those for which its field, if it has one,
- * is computed, else NULL. Returns NULL if memory ran out. */
-shade_job *shade_begin(const render_frame *frame, const render_surfaces *surfaces);
+/* Requests the nodes of a field around all surfaces (lmp_field_want_n). Returns false if it could
+ * not. */
+typedef bool shade_want(lmp_field *nodes, void *user);
+
+/* A shade_want for the surfaces of render_surfaces, `user`. */
+shade_want shade_want_surfaces;
+
+/* Begins shading with the frame's lights; if it has a field, its nodes are computed that `want`
+ * requests. Returns NULL if memory ran out or `want` failed. */
+shade_job *shade_begin(const render_frame *frame, shade_want *want, void *user);
 void shade_end(shade_job *job);
+
+/* Records how long shading the surfaces took, for the statistics of a field. */
+void shade_note(const shade_job *job, double milliseconds);
 
 /* An earlier sample of the same pixels, and its radiance. A later sample that sees the same surface
  * at a nearby position takes its radiance: lighting changes less within a pixel than what is seen

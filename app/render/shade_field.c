@@ -155,7 +155,8 @@ static void follow_lights(shade_field *field, const lmp_host *host, const lmp_li
         lmp_field_move_n(host, field->nodes, field->moved, field->to, moved);
 }
 
-static bool want_surfaces(lmp_field *nodes, const render_surfaces *surfaces) {
+bool shade_want_surfaces(lmp_field *nodes, void *user) {
+    const render_surfaces *surfaces = user;
     bool ok = true;
 #pragma omp parallel reduction(&& : ok)
     {
@@ -178,13 +179,17 @@ static bool want_surfaces(lmp_field *nodes, const render_surfaces *surfaces) {
 }
 
 const lmp_field *shade_field_follow(shade_field *field, const lmp_light *lights, size_t count,
-                                    const render_surfaces *surfaces) {
-    const double start = timing_now();
+                                    shade_want *want, void *user) {
+    double start = timing_now();
     const char *what = "lighting the field";
     lmp_host host = bake_host(&what);
     host.progress = NULL;
     follow_lights(field, &host, lights, count);
-    if (!want_surfaces(field->nodes, surfaces) || lmp_field_compute(&host, field->nodes) != LMP_OK)
+    const double followed = timing_now();
+    if (!want(field->nodes, user))
+        return NULL;
+    start += timing_now() - followed;
+    if (lmp_field_compute(&host, field->nodes) != LMP_OK)
         return NULL;
     field->last.update_milliseconds = 1e3 * (timing_now() - start);
     return field->nodes;

@@ -5,7 +5,7 @@
 #define LAMPION_RENDER_SHADE_FIELD_H
 
 #include "app/base/cli.h"
-#include "app/render/surfaces.h"
+#include "app/render/shade.h"
 
 typedef struct shade_field_options {
     int grid[3]; /* nodes along x, y, z */
@@ -66,9 +66,10 @@ shade_field_statistics shade_field_describe(const shade_field *field);
 
 /* --- for shade.c ------------------------------------------------------------------------------ */
 
-/* Updates the field's lights, and computes its nodes wherever there are surfaces. */
+/* Updates the field's lights, and computes the nodes that `want` requests. Returns NULL if memory
+ * ran out. */
 const lmp_field *shade_field_follow(shade_field *field, const lmp_light *lights, size_t count,
-                                    const render_surfaces *surfaces);
+                                    shade_want *want, void *user);
 
 /* Records how long shading the surfaces took. */
 void shade_field_note(shade_field *field, double milliseconds);

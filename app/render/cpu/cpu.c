@@ -89,10 +89,13 @@ const image *cpu_image(const cpu_renderer *r) {
 
 /* --- a frame ---------------------------------------------------------------------------------- */
 
-/* Whether something needs all surfaces of a sample at once. */
-static bool has_planes(const render_frame *frame) {
+/* Whether something needs all surfaces of a sample at once. A field does, for it computes its nodes
+ * before any surface is shaded, unless tiles find the hits of their only sample beforehand. */
+static bool has_planes(const cpu_drawing *d) {
+    const render_frame *frame = d->frame;
     return (frame->shadow.run && !frame->shadow.tiled) || frame->keep_geometry ||
-           method_table[frame->method].reads & METHOD_READS_FIELD;
+           (method_table[frame->method].reads & METHOD_READS_FIELD &&
+            (d->samples > 1 || d->materials->blends || frame->shadow.run));
 }
 
 static bool size_image(cpu_renderer *r, const render_frame *frame, base_error *error) {
@@ -125,7 +128,7 @@ static bool draw(cpu_renderer *r, const render_frame *frame, int first, int end,
     if (!cpu_lights_create(frame, r->world->bvh, &lights))
         return base_fail(error, NULL, "out of memory");
     d.view.lights = lights;
-    const bool ok = refine || has_planes(frame)
+    const bool ok = refine || has_planes(&d)
                         ? cpu_whole_draw(&r->whole, &d, first, end, refine, times, error)
                         : cpu_tiles_draw(&r->tiles, &d, times, error);
     trace_lamps_destroy(lights);

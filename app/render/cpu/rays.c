@@ -119,16 +119,12 @@ static void see_lights(const cpu_view *view, int x, int y, const trace_rays *ray
     }
 }
 
-static void fill_square(const cpu_view *view, int x, int y, int width, int height,
-                        const cpu_first *first, cpu_triangle *triangle, const render_surfaces *s) {
-    trace_rays rays;
-    trace_hit hits[TRACE_LANES];
-    set_rays(s, x, y, width, height, &rays);
-    trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
-    if (s->weight)
-        look_through(view, x, y, rays, hits, s);
+/* Fills a square from what its rays have hit. */
+static void fill_square(const cpu_view *view, int x, int y, const trace_rays *rays,
+                        trace_hit hits[TRACE_LANES], const cpu_first *first, cpu_triangle *triangle,
+                        const render_surfaces *s) {
     for (int i = 0; i < TRACE_LANES; i++) {
-        if (rays.length[i] < 0)
+        if (rays->length[i] < 0)
             continue;
         const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
         if (s->hits)
@@ -143,12 +139,20 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
             s->seen[at] = RENDER_SEES_NOTHING;
         else {
             cpu_triangle_find(view->scene, &hits[i], triangle);
-            const float direction[3] = { rays.direction[0][i], rays.direction[1][i],
-                                         rays.direction[2][i] };
+            const float direction[3] = { rays->direction[0][i], rays->direction[1][i],
+                                         rays->direction[2][i] };
             cpu_surface_fill(view->textures, triangle, direction, &hits[i], first, at, s);
         }
     }
-    see_lights(view, x, y, &rays, hits, s);
+    see_lights(view, x, y, rays, hits, s);
+}
+
+/* Returns the hits that the planes keep of a square's rays. */
+static void load_hits(int x, int y, const trace_rays *rays, const render_surfaces *s,
+                      trace_hit hits[TRACE_LANES]) {
+    for (int i = 0; i < TRACE_LANES; i++)
+        hits[i] = rays->length[i] < 0 ? trace_miss()
+                                      : s->hits[render_surfaces_at(s, x + i % SIDE, y + i / SIDE)];
 }
 
 /* Restores what the pixels of a square see from the kept hits, then finds the lights before
@@ -158,12 +162,11 @@ static void light_square(const cpu_view *view, int x, int y, int width, int heig
     trace_rays rays;
     trace_hit hits[TRACE_LANES];
     set_rays(s, x, y, width, height, &rays);
+    load_hits(x, y, &rays, s, hits);
     for (int i = 0; i < TRACE_LANES; i++) {
-        hits[i] = trace_miss();
         if (rays.length[i] < 0)
             continue;
         const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
-        hits[i] = s->hits[at];
         s->seen[at] = hits[i].instance == TRACE_NOTHING
                           ? RENDER_SEES_NOTHING
                           : scene_instance_material(view->scene, hits[i].instance);
@@ -176,9 +179,62 @@ void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels,
     const cpu_first before = { first, render_nearness_of(&s->camera) };
     cpu_triangle triangle = { .material = NULL };
     for (int j = 0; j < pixels->height; j += SIDE)
-        for (int i = 0; i < pixels->width; i += SIDE)
-            fill_square(view, pixels->x + i, pixels->y + j, pixels->width - i, pixels->height - j,
-                        first ? &before : NULL, &triangle, s);
+        for (int i = 0; i < pixels->width; i += SIDE) {
+            const int x = pixels->x + i, y = pixels->y + j;
+            trace_rays rays;
+            trace_hit hits[TRACE_LANES];
+            set_rays(s, x, y, pixels->width - i, pixels->height - j, &rays);
+            trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
+            if (s->weight)
+                look_through(view, x, y, rays, hits, s);
+            fill_square(view, x, y, &rays, hits, first ? &before : NULL, &triangle, s);
+        }
+}
+
+/* Keeps the hits of a square, and appends their positions to those of the tile. */
+static void find_square(const cpu_view *view, int x, int y, const trace_rays *rays,
+                        cpu_triangle *triangle, const render_surfaces *s, render_tile *tile,
+                        size_t *count) {
+    trace_hit hits[TRACE_LANES];
+    trace_nearest_n(view->bvh, TRACE_CAMERA, rays, hits);
+    for (int i = 0; i < TRACE_LANES; i++) {
+        if (rays->length[i] < 0)
+            continue;
+        s->hits[render_surfaces_at(s, x + i % SIDE, y + i / SIDE)] = hits[i];
+        if (hits[i].instance == TRACE_NOTHING)
+            continue;
+        cpu_triangle_find(view->scene, &hits[i], triangle);
+        const lmp_vec3 position = cpu_surface_position(triangle, &hits[i]);
+        tile->position[0][*count] = position.x;
+        tile->position[1][*count] = position.y;
+        tile->position[2][(*count)++] = position.z;
+    }
+}
+
+size_t cpu_rays_find(const cpu_view *view, const render_rectangle *pixels, const render_surfaces *s,
+                     render_tile *tile) {
+    cpu_triangle triangle = { .material = NULL };
+    size_t count = 0;
+    for (int j = 0; j < pixels->height; j += SIDE)
+        for (int i = 0; i < pixels->width; i += SIDE) {
+            trace_rays rays;
+            set_rays(s, pixels->x + i, pixels->y + j, pixels->width - i, pixels->height - j, &rays);
+            find_square(view, pixels->x + i, pixels->y + j, &rays, &triangle, s, tile, &count);
+        }
+    return count;
+}
+
+void cpu_rays_fill_found(const cpu_view *view, const render_rectangle *pixels,
+                         const render_surfaces *s) {
+    cpu_triangle triangle = { .material = NULL };
+    for (int j = 0; j < pixels->height; j += SIDE)
+        for (int i = 0; i < pixels->width; i += SIDE) {
+            trace_rays rays;
+            trace_hit hits[TRACE_LANES];
+            set_rays(s, pixels->x + i, pixels->y + j, pixels->width - i, pixels->height - j, &rays);
+            load_hits(pixels->x + i, pixels->y + j, &rays, s, hits);
+            fill_square(view, pixels->x + i, pixels->y + j, &rays, hits, NULL, &triangle, s);
+        }
 }
 
 void cpu_rays_light(const cpu_view *view, const render_rectangle *pixels,

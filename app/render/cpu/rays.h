@@ -25,6 +25,14 @@ bool cpu_lights_create(const render_frame *frame, const trace_bvh *bvh, trace_la
 void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels,
                    const render_surfaces *first, const render_surfaces *surfaces);
 
+/* Do so in two steps, in a scene without blended surfaces: cpu_rays_find keeps the hits in
+ * surfaces->hits, and returns the number of surfaces, whose positions the tile receives one after
+ * another, lights aside; cpu_rays_fill_found fills the planes from the hits. */
+size_t cpu_rays_find(const cpu_view *view, const render_rectangle *pixels,
+                     const render_surfaces *surfaces, render_tile *tile);
+void cpu_rays_fill_found(const cpu_view *view, const render_rectangle *pixels,
+                         const render_surfaces *surfaces);
+
 /* Finds the lights again in planes that were filled for the same camera and keep their hits. */
 void cpu_rays_light(const cpu_view *view, const render_rectangle *pixels,
                     const render_surfaces *surfaces);

@@ -54,7 +54,7 @@ static bool shade(split_pixel *p, const render_frame *frame, const environment *
     p->surfaces.frame = frame;
     p->surfaces.environment = around;
     shade_field_forget(frame->field);
-    shade_job *job = shade_begin(frame, &p->surfaces);
+    shade_job *job = shade_begin(frame, shade_want_surfaces, &p->surfaces);
     if (!job)
         return fail_memory(error);
     shade_tile(job, &p->surfaces, NULL, &p->at, &p->tile, rgba);

@@ -229,12 +229,23 @@ static void fill_plain(const point *p, uint32_t number, size_t at, const render_
     set_vector(s->emission, at, vec_load(emission));
 }
 
+static void set_weights(const trace_hit *hit, float weights[3]) {
+    weights[0] = (float)(1 - (double)hit->u - (double)hit->v);
+    weights[1] = hit->u;
+    weights[2] = hit->v;
+}
+
+lmp_vec3 cpu_surface_position(const cpu_triangle *t, const trace_hit *hit) {
+    const scene_vertex *v = t->corners;
+    float weights[3];
+    set_weights(hit, weights);
+    return mix(v[0].position, v[1].position, v[2].position, weights);
+}
+
 /* Finds the hit point's weights, normal and side, which do not depend on the material. */
 static void place(const cpu_triangle *t, lmp_vec3 d, const trace_hit *hit, point *p) {
     const scene_vertex *v = t->corners;
-    p->weights[0] = (float)(1 - (double)hit->u - (double)hit->v);
-    p->weights[1] = hit->u;
-    p->weights[2] = hit->v;
+    set_weights(hit, p->weights);
     const lmp_vec3 normal = mix(v[0].normal, v[1].normal, v[2].normal, p->weights);
     p->side = vec_dot(t->face, d) > 0 ? -1.0f : 1.0f;
     p->smooth = vec_dot(normal, normal) > 0 ? vec_normalize(normal, t->face)
@@ -269,17 +280,16 @@ void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const
                       const trace_hit *hit, const cpu_first *first, size_t at,
                       const render_surfaces *s) {
     const lmp_vec3 d = vec_load(direction);
-    const scene_vertex *v = t->corners;
     const bool layered = s->layered && render_material_is_layered(s->materials, t->number);
     const bool translucent =
         s->translucent && render_material_is_translucent(s->materials, t->number);
     point p;
     p.textures = textures;
     p.material = t->material;
-    p.corners = v;
+    p.corners = t->corners;
     p.covered = NULL;
     place(t, d, hit, &p);
-    const lmp_vec3 position = mix(v[0].position, v[1].position, v[2].position, p.weights);
+    const lmp_vec3 position = cpu_surface_position(t, hit);
     set_vector(s->position, at, position);
     if (s->translucent)
         set_vector(s->transmitted, at, vec(0, 0, 0));

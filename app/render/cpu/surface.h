@@ -24,6 +24,9 @@ typedef struct cpu_triangle {
  * same. */
 void cpu_triangle_find(const scene *scene, const trace_hit *hit, cpu_triangle *triangle);
 
+/* Returns where a hit lies on its triangle: the position that cpu_surface_fill sets. */
+lmp_vec3 cpu_surface_position(const cpu_triangle *triangle, const trace_hit *hit);
+
 /* Fills value `at` of the surfaces' planes with the surface at the hit, or with that of the first
  * sample if it may stand for it; `first` may be NULL. */
 void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *triangle,

@@ -15,7 +15,9 @@ enum { HELD = 5 }; /* planes that are kept: what is seen, emission, weights */
 /* The job of one frame. */
 typedef struct tiles_job {
     const cpu_drawing *drawing;
-    const shade_job *shade;
+    bool by_field;    /* whether the only sample reads a field */
+    lmp_field *nodes; /* of the field, while they are requested */
+    shade_job *shade;
     const render_camera *cameras;  /* of the samples */
     const render_tiled_pass *pass; /* or NULL */
     cpu_tiles *kept;
@@ -36,6 +38,7 @@ typedef struct tile_place {
     render_rectangle pixels;
     render_surfaces first, held;
     float *first_rgba, *rgba, *sums;
+    trace_hit *hits; /* that were found beforehand, or NULL */
 } tile_place;
 
 static void close_work(const tiles_job *job, tile_work *w) {
@@ -87,10 +90,13 @@ static const render_surfaces *draw_sample(const tiles_job *job, int sample, tile
     float *rgba = later ? w->rgba : at->first_rgba;
     s->x = at->pixels.x;
     s->y = at->pixels.y;
-    s->hits = w->surfaces.hits;
+    s->hits = at->hits ? at->hits : w->surfaces.hits;
     s->first = later ? &at->first : NULL;
     cpu_set_planes(d, &job->cameras[sample], s);
-    cpu_rays_fill(&d->view, &at->pixels, later ? &at->first : NULL, s);
+    if (at->hits)
+        cpu_rays_fill_found(&d->view, &at->pixels, s);
+    else
+        cpu_rays_fill(&d->view, &at->pixels, later ? &at->first : NULL, s);
     note_time(w, SURFACES);
     const render_bounces *bounces = &d->frame->bounces;
     if (bounces->fill)
@@ -148,11 +154,16 @@ static void add_later(float exposure, const render_rectangle *pixels, tile_work 
         }
 }
 
+static trace_hit *hits_of(const cpu_tiles *kept, int number) {
+    return kept->hits ? kept->hits + (size_t)number * RENDER_TILE_PIXELS : NULL;
+}
+
 static void draw_alone(const tiles_job *job, int number, tile_work *w) {
     const cpu_drawing *d = job->drawing;
     tile_place at = { .pixels = render_tile_at(d->frame->width, d->frame->height, number),
                       .first = w->first,
-                      .first_rgba = w->first_rgba };
+                      .first_rgba = w->first_rgba,
+                      .hits = job->by_field ? hits_of(job->kept, number) : NULL };
     for (int i = 0; i < d->samples; i++) {
         draw_sample(job, i, &at, w);
         if (i > 0)
@@ -162,6 +173,34 @@ static void draw_alone(const tiles_job *job, int number, tile_work *w) {
         note_time(w, SHADE);
     }
     set_image(d, &at.pixels, w->first_rgba, w->sums);
+    note_time(w, SHADE);
+}
+
+/* --- the surfaces of a field's only sample ---------------------------------------------------- */
+
+static bool size_hits(const render_frame *frame, cpu_tiles *t) {
+    const int count = render_tile_count(frame->width, frame->height);
+    if (t->hits && t->hit_count == count)
+        return true;
+    free(t->hits);
+    t->hits = memory_large((size_t)count * RENDER_TILE_PIXELS * sizeof *t->hits);
+    t->hit_count = count;
+    return t->hits != NULL;
+}
+
+/* Finds what a tile sees, and requests the field's nodes there. */
+static void want_tile(const tiles_job *job, int number, tile_work *w) {
+    const cpu_drawing *d = job->drawing;
+    const render_rectangle pixels = render_tile_at(d->frame->width, d->frame->height, number);
+    render_surfaces *s = &w->first;
+    s->x = pixels.x;
+    s->y = pixels.y;
+    s->hits = hits_of(job->kept, number);
+    cpu_set_planes(d, &job->cameras[0], s);
+    const size_t count = cpu_rays_find(&d->view, &pixels, s, &w->tile);
+    s->hits = NULL;
+    note_time(w, SURFACES);
+    lmp_field_want_n(job->nodes, render_vectors(w->tile.position), count);
     note_time(w, SHADE);
 }
 
@@ -202,6 +241,7 @@ void cpu_tiles_free(cpu_tiles *t) {
     free(t->held);
     free(t->rgba);
     free(t->sums);
+    free(t->hits);
     memset(t, 0, sizeof *t);
 }
 
@@ -286,8 +326,9 @@ static void change(const tiles_job *job, int sample, int end, int number, tile_w
 
 /* --- all tiles -------------------------------------------------------------------------------- */
 
-/* Which samples of each tile to draw: all, the one that the pass looks at, or those it changes. */
-typedef enum tiles_step { ALL, LOOK, CHANGE } tiles_step;
+/* What to do with each tile: find its surfaces for a field; draw all samples, the one that the pass
+ * looks at, or those it changes. */
+typedef enum tiles_step { WANT, ALL, LOOK, CHANGE } tiles_step;
 
 static bool run(const tiles_job *job, tiles_step step, int sample, int end, render_times *times,
                 base_error *error) {
@@ -304,7 +345,9 @@ static bool run(const tiles_job *job, tiles_step step, int sample, int end, rend
             if (!work || !render_next_tile(job->drawing->frame))
                 continue;
             work->now = timing_now();
-            if (step == ALL)
+            if (step == WANT)
+                want_tile(job, i, work);
+            else if (step == ALL)
                 draw_alone(job, i, work);
             else if (step == LOOK)
                 look_at(job, sample, i, work);
@@ -337,7 +380,7 @@ static int count_steps(const tiles_job *job) {
     int steps = 0;
     for (int i = 0; i < job->drawing->samples && job->pass; i++)
         steps += job->pass->looks(job->drawing->frame->shadow.user, i) ? 2 : 0;
-    return job->pass ? steps : 1;
+    return job->pass ? steps : job->by_field ? 2 : 1;
 }
 
 /* Draws the samples that the pass looks at, each followed by the samples up to the next one. */
@@ -361,23 +404,63 @@ static bool run_pass(const tiles_job *job, render_times *times, base_error *erro
     return true;
 }
 
+/* A job whose field's nodes are to be requested, tile by tile. */
+typedef struct tiles_want {
+    tiles_job *job;
+    render_times *times;
+    base_error *error;
+    bool failed; /* and the error is set */
+    double seconds;
+} tiles_want;
+
+/* A shade_want. */
+static bool want_tiles(lmp_field *nodes, void *user) {
+    tiles_want *w = user;
+    const double start = timing_now();
+    w->job->nodes = nodes;
+    w->failed = !run(w->job, WANT, 0, 1, w->times, w->error);
+    w->seconds = timing_now() - start;
+    return !w->failed;
+}
+
+/* Begins shading; what that takes, except for finding surfaces, counts as shading. */
+static bool begin_shade(tiles_job *job, render_times *times, base_error *error) {
+    tiles_want wanted = { .job = job, .times = times, .error = error };
+    const double start = timing_now();
+    job->shade = shade_begin(job->drawing->frame, want_tiles, &wanted);
+    if (times)
+        times->shade += 1e3 * (timing_now() - start - wanted.seconds);
+    return job->shade || (!wanted.failed && base_fail(error, NULL, "out of memory"));
+}
+
+static bool draw_all(const tiles_job *job, render_times *times, base_error *error) {
+    const double before = times ? times->shade : 0;
+    if (!run(job, ALL, 0, job->drawing->samples, times, error))
+        return false;
+    if (times)
+        shade_note(job->shade, times->shade - before);
+    return true;
+}
+
 bool cpu_tiles_draw(cpu_tiles *kept, const cpu_drawing *d, render_times *times, base_error *error) {
     const render_frame *frame = d->frame;
     render_camera *cameras = malloc((size_t)d->samples * sizeof *cameras);
-    shade_job *shade = cameras ? shade_begin(frame, NULL) : NULL;
-    const tiles_job job = { d, shade, cameras, frame->shadow.tiled, kept };
-    bool ok = shade || base_fail(error, NULL, "out of memory");
+    tiles_job job = { .drawing = d,
+                      .by_field = method_table[frame->method].reads & METHOD_READS_FIELD,
+                      .cameras = cameras,
+                      .pass = frame->shadow.tiled,
+                      .kept = kept };
+    bool ok = (cameras && (!job.by_field || size_hits(frame, kept)) &&
+               (!job.pass || size_kept(d, kept))) ||
+              base_fail(error, NULL, "out of memory for an image of %d x %d", frame->width,
+                        frame->height);
     for (int i = 0; ok && i < d->samples; i++)
         ok = render_camera_set(d->view.scene, frame, i, &cameras[i], error);
     render_progress_reset(frame->progress,
                           count_steps(&job) * render_tile_count(frame->width, frame->height));
-    if (ok && !job.pass)
-        ok = run(&job, ALL, 0, d->samples, times, error);
-    else if (ok)
-        ok = (size_kept(d, kept) || base_fail(error, NULL, "out of memory for an image of %d x %d",
-                                              frame->width, frame->height)) &&
-             run_pass(&job, times, error);
-    shade_end(shade);
+    ok = ok && begin_shade(&job, times, error) &&
+         (job.pass ? run_pass(&job, times, error) : draw_all(&job, times, error));
+    shade_end(job.shade);
     free(cameras);
     return ok;
 }

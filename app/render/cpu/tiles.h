@@ -6,8 +6,8 @@
 
 #include "app/render/cpu/drawing.h"
 
-/* Buffers kept for all tiles between two samples that a pass looks at, tile after tile; or
- * nothing. */
+/* Buffers kept for all tiles, tile after tile, between two samples that a pass looks at, and
+ * between finding and shading surfaces; or nothing. */
 typedef struct cpu_tiles {
     int count;
     size_t planes;      /* values of a tile's first sample; 0: there are no later samples */
@@ -17,6 +17,8 @@ typedef struct cpu_tiles {
     float *first_rgba;  /* radiance of the first sample */
     float *held, *rgba; /* of the sample looked at: seen, emission and weights; radiance */
     float *sums;        /* weighted radiances so far, and weights */
+    trace_hit *hits;    /* of the only sample, of a field */
+    int hit_count;      /* of tiles */
 } cpu_tiles;
 
 void cpu_tiles_free(cpu_tiles *tiles);

@@ -115,9 +115,12 @@ static bool draw_sample(cpu_whole *w, const cpu_drawing *d, int index, bool keep
     if (!render_surfaces_fill_bounced(s))
         return base_fail(error, NULL, "out of memory");
     const double bounced = timing_now();
-    shade_job *job = shade_begin(frame, s);
+    shade_job *job = shade_begin(frame, shade_want_surfaces, s);
+    const double begun = timing_now();
     const shade_sample before = { &w->first, w->first_rgba };
     const bool ok = job && shade_tiles(job, s, keep && !kept ? &before : NULL, rgba);
+    if (ok)
+        shade_note(job, 1e3 * (timing_now() - begun));
     shade_end(job);
     if (!ok)
         return base_fail(error, NULL, "out of memory");
