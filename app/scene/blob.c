@@ -86,7 +86,8 @@ static bool header_fits(const blob_header *header, size_t size) {
             count > (size - offset) / blob_item_size[i])
             return false;
     }
-    return origin_fits(header->origin) && header->sections[BLOB_LIGHTS].count <= SCENE_LIGHTS_MAX &&
+    return header->up <= SCENE_UP_Z && origin_fits(header->origin) &&
+           header->sections[BLOB_LIGHTS].count <= SCENE_LIGHTS_MAX &&
            header->sections[BLOB_SOURCES].count <= BLOB_SOURCES_MAX &&
            header->sections[BLOB_VERTICES].count < UINT32_MAX &&
            header->sections[BLOB_INDICES].count < UINT32_MAX &&
@@ -393,6 +394,7 @@ void blob_geometry(const void *block, scene *s) {
     s->mesh_count = header->sections[BLOB_MESHES].count;
     s->instance_count = header->sections[BLOB_INSTANCES].count;
     memcpy(s->origin, header->origin, sizeof s->origin);
+    s->up = (int)header->up;
 }
 
 static void measure(scene *s) {

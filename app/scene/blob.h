@@ -9,7 +9,7 @@
 #include "app/scene/scene.h"
 
 #define BLOB_MAGIC   "LAMPSCN"
-#define BLOB_VERSION 21u /* raise with any change of the layout or of what the importer makes */
+#define BLOB_VERSION 22u /* raise with any change of the layout or of what the importer makes */
 
 typedef enum blob_section {
     BLOB_VERTICES,
@@ -48,6 +48,7 @@ typedef struct blob_header {
     uint64_t size;                /* of the whole blob */
     file_hash content;            /* of all that follows the header; zero if not computed */
     double origin[3];             /* of the scene, in the world */
+    uint32_t up, reserved;        /* up: the axis of the file that became y */
     struct {
         uint64_t offset, count;
     } sections[BLOB_SECTIONS];

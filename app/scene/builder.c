@@ -220,6 +220,7 @@ void builder_header(const scene_builder *builder, bool checksum, blob_header *he
         counts[i] = builder->arrays[i].count;
     blob_layout(header, counts);
     memcpy(header->origin, builder->origin, sizeof header->origin);
+    header->up = (uint32_t)builder->up;
     for (int i = 0; checksum && i < BLOB_SECTIONS; i++)
         file_hash_add(&header->content, builder->arrays[i].items, counts[i] * blob_item_size[i]);
 }

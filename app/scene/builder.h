@@ -15,6 +15,7 @@ typedef struct builder_array {
 typedef struct scene_builder {
     builder_array arrays[BLOB_SECTIONS];
     double origin[3];     /* of all positions, in the file's world */
+    int up;               /* the file's axis that points up; AUTO: its format does not say */
     bool centers_meshes;  /* whether meshes far from 0 in their own space are moved near it */
     double (*centers)[3]; /* then, for each mesh, where it was, for its instances */
     bool has_tree;        /* whether instances are added to the last node, not each to its own */

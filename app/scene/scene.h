@@ -203,6 +203,7 @@ typedef struct scene {
     float minimum[3], maximum[3]; /* of all instances; of a unit box if there are none */
     scene_frame *frame;           /* filled in when first needed; NULL: determined each time */
     double origin[3];             /* in the world; 0 unless the scene lies far from there */
+    int up;                       /* the file's axis that became y */
     void *block;                  /* owned by the scene */
     size_t block_size;
     bool mapped;   /* whether the block is a mapping rather than from malloc */
@@ -214,7 +215,8 @@ typedef struct scene {
     const char *name; /* the name it was loaded under, for messages; the caller's string */
 } scene;
 
-enum { SCENE_UP_Y, SCENE_UP_Z }; /* the file's axis that points up */
+/* The file's axis that points up; AUTO: as its format says, else y. */
+enum { SCENE_UP_AUTO, SCENE_UP_Y, SCENE_UP_Z };
 extern const char *const scene_up_names[];
 
 /* How foliage is shown if its file says nothing about transmission (app/scene/load/leaves.h). */
@@ -252,7 +254,9 @@ void scene_free(scene *scene);
       .kind = CLI_CHOICE,                                                                          \
       .target = &(variable).up,                                                                    \
       .argument = "AXIS",                                                                          \
-      .help = "the axis of the scene file that points up; the scene is rotated to make it y",      \
+      .help =                                                                                      \
+          "the axis of the scene file that points up: y, z, or auto: as its format says, else "    \
+          "y; the scene is rotated to make it y",                                                  \
       .choices = scene_up_names },                                                                 \
         { .name = "variant",                                                                       \
           .kind = CLI_TEXT,                                                                        \
@@ -310,10 +314,10 @@ bool scene_write_lights(const char *path, const double origin[3], const scene_li
 /* Whether a scene's name is that of a glTF file, .gltf or .glb. */
 bool scene_is_gltf(const char *name);
 
-/* Writes a copy of the scene's glTF file with these lights in place of its own; `up` is the axis
- * that it was loaded with. A copy beside the file shares its buffers and images; a GLB stays one.
- * `lost` says in one line what glTF cannot: "" is nothing. */
-bool scene_export_gltf(const scene *scene, int up, const scene_light *lights, size_t count,
+/* Writes a copy of the scene's glTF file with these lights in place of its own. A copy beside the
+ * file shares its buffers and images; a GLB stays one. `lost` says in one line what glTF cannot: ""
+ * is nothing. */
+bool scene_export_gltf(const scene *scene, const scene_light *lights, size_t count,
                        const char *path, char *lost, size_t lost_size, base_error *error);
 
 /* Adds the lights of a file to the scene's; adds none on failure. */

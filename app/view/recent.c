@@ -123,7 +123,8 @@ void view_resume_session(viewer *v) {
     json_t *root = full_name_of(s->now.scene, name) && session_path_of(name, path)
                        ? file_read_json(path, SIZE_LIMIT, &error)
                        : NULL;
-    if (last && root && view_settings_from_json(root, path, last, &error)) {
+    if (last && root && view_settings_from_json(root, path, last, &error) &&
+        last->up == s->now.up) {
         view_settings_rebase(last, s->now.origin);
         memcpy(s->now.environment, last->environment, sizeof last->environment);
         s->now.environment_rotation = last->environment_rotation;

@@ -187,6 +187,7 @@ void view_reload(viewer *v) {
     const char *variant = other ? NULL : view_variant(&v->state.now);
     scene_options load = o->load;
     load.variant = variant;
+    load.up = other ? SCENE_UP_AUTO : v->state.now.up;
     scene *world = view_load_scene(v, other ? v->state.other : v->state.now.scene, &load,
                                    other || v->another ? &own : &o->lights, &error);
     v->state.requests.cancel = false;

@@ -113,7 +113,7 @@ json_t *view_settings_to_json(const view_settings *s) {
     for (size_t i = 0; i < s->light_count; i++)
         lights = file_json_append(lights, scene_light_to_json(&s->lights[i], s->origin));
     json_t *root = json_pack("{s:o}", "scene", file_json_string(s->scene));
-    if (s->up != SCENE_UP_Y)
+    if (s->up == SCENE_UP_Z)
         root = file_json_with(root, "up", json_string(scene_up_names[s->up]));
     if (s->leaves != SCENE_LEAVES_TRANSLUCENT)
         root = file_json_with(root, "leaves", json_string(scene_leaves_names[s->leaves]));
@@ -194,7 +194,7 @@ static bool read_choice_or(const json_t *object, const char *name, const char *c
     return !json_object_get(object, name) || read_choice(object, name, choices, value);
 }
 
-/* Reads the up axis; absent means as in the scene's file. */
+/* Reads the up axis; absent means that nothing is rotated. */
 static bool read_up(const json_t *root, int *up) {
     return read_choice_or(root, "up", scene_up_names, SCENE_UP_Y, up);
 }

@@ -52,8 +52,7 @@ bool view_export(viewer *v, const char *path, base_error *error) {
         view_say(&v->state, "%s: --lights reads it, or drop it here", path);
         return true;
     }
-    if (!scene_export_gltf(v->world, now->up, now->lights, now->light_count, path, lost,
-                           sizeof lost, error))
+    if (!scene_export_gltf(v->world, now->lights, now->light_count, path, lost, sizeof lost, error))
         return false;
     if (lost[0])
         base_note(path, "%s", lost);

@@ -77,6 +77,7 @@ bool view_state_open(const scene *world, view_tree *tree, const view_settings *s
     s->world = world;
     s->tree = tree;
     s->now = *settings;
+    s->now.up = world->up;
     s->overlay = s->handles = true;
     s->scale = 1;
     s->playing = animate != NULL;
@@ -161,6 +162,7 @@ bool view_state_replace_scene(view_state *s, const scene *world, view_tree *tree
             return false;
         }
     }
+    s->now.up = world->up;
     s->tree = tree;
     s->node = -1;
     for (int i = 0; i < before.count; i++)

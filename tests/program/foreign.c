@@ -180,12 +180,102 @@ static void an_accessor_past_its_array_is_refused(void **state) {
     }
 }
 
+/* A triangle from 0 to 1 along x and to 3 along z, in formats of Assimp. FBX says which axis is up.
+ */
+#define STL                                                                                        \
+    "solid s\nfacet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 3\n"         \
+    "endloop\nendfacet\nendsolid s\n"
+#define AMF                                                                                        \
+    "<?xml version=\"1.0\"?><amf><object id=\"1\"><mesh><vertices>"                                \
+    "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"                         \
+    "<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>"                         \
+    "<vertex><coordinates><x>0</x><y>0</y><z>3</z></coordinates></vertex></vertices>"              \
+    "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object></amf>"
+#define COB                                                                                        \
+    "Caligari V00.01ALH             \nPolH V0.08 Id 1 Parent 0 Size 00000500\nName t,1\n"          \
+    "center 0 0 0\nx axis 1 0 0\ny axis 0 1 0\nz axis 0 0 1\nTransform\n1 0 0 0\n0 1 0 0\n"        \
+    "0 0 1 0\n0 0 0 1\nWorld Vertices 3\n0 0 0\n1 0 0\n0 0 3\nTexture Vertices 1\n0 0\n"           \
+    "Faces 1\nFace verts 3 flags 0 mat 0\n<0,0> <1,0> <2,0>\nDrawFlags 0\n"                        \
+    "END V1.00 Id 0 Parent 0 Size        0\n"
+#define FBX(axis)                                                                                  \
+    "; FBX 7.3.0 project file\nFBXHeaderExtension: {\n FBXVersion: 7300\n}\nGlobalSettings: {\n"   \
+    " Properties70: {\n  P: \"UpAxis\", \"int\", \"Integer\", \"\"," axis "\n }\n}\nObjects: {\n"  \
+    " Geometry: 1, \"Geometry::g\", \"Mesh\" {\n  Vertices: *9 {\n   a: 0,0,0,1,0,0,0,0,3\n  }\n"  \
+    "  PolygonVertexIndex: *3 {\n   a: 0,1,-3\n  }\n }\n Model: 2, \"Model::m\", \"Mesh\" {\n }\n" \
+    "}\nConnections: {\n C: \"OO\",2,0\n C: \"OO\",1,2\n}\n"
+
+static const unsigned char max_3ds[] = {
+    0x4d, 0x4d, 86, 0, 0, 0, 0x3d, 0x3d, 80, 0, 0, 0, 0x00, 0x40, 74,   0,    0,    0,    't', 0,
+    0x00, 0x41, 66, 0, 0, 0, 0x10, 0x41, 44, 0, 0, 0, 3,    0, /* three vertices */
+    0,    0,    0,  0, 0, 0, 0,    0,    0,  0, 0, 0, 0,    0,    0x80, 0x3f, 0,    0,    0,   0,
+    0,    0,    0,  0, 0, 0, 0,    0,    0,  0, 0, 0, 0,    0,    0x40, 0x40, 0x20, 0x41, 16,  0,
+    0,    0,    1,  0, 0, 0, 1,    0,    2,  0, 7, 0, /* and a face */
+};
+
+/* The axis along which the triangle is 3 long. */
+static int long_axis(const char *name, int up) {
+    scene s;
+    base_error error;
+    if (!scene_load(in_folder(name), &(scene_options) { .no_cache = true, .up = up }, &s, &error))
+        fail_msg("%s", error.text);
+    const int axis = s.maximum[1] - s.minimum[1] > s.maximum[2] - s.minimum[2] ? 1 : 2;
+    CHECK_WITHIN(fabsf(s.maximum[axis] - s.minimum[axis] - 3), 1e-6);
+    scene_free(&s);
+    return axis;
+}
+
+/* Once, whether Assimp rotates the format or leaves that to us. */
+static void a_format_whose_z_is_up_stands(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *text;
+        bool stands, by_assimp;
+    } files[] = {
+        { "z.stl", STL, true, false },
+        { "z.AMF", AMF, true, false },
+        { "z.cob", COB, true, false },
+        { "z.fbx", FBX("2"), true, false },
+        { "y.fbx", FBX("1"), false, false },
+        { "z.3ds", NULL, true, true },
+        { "y.obj", "v 0 0 0\nv 1 0 0\nv 0 0 3\nf 1 2 3\n", false, false },
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        const char *const name = files[i].name;
+        if (files[i].text)
+            folder_write_text(name, files[i].text);
+        else
+            folder_write(name, max_3ds, sizeof max_3ds);
+        const int y = files[i].by_assimp ? 1 : 2;
+        if (long_axis(name, SCENE_UP_AUTO) != (files[i].stands ? 1 : 2))
+            fail_msg("%s lies", name);
+        assert_int_equal(long_axis(name, SCENE_UP_Y), y);
+        assert_int_equal(long_axis(name, SCENE_UP_Z), 3 - y);
+    }
+}
+
+/* COLLADA says which axis is up, and Assimp heeds it. */
+static void a_collada_stands_by_its_up_axis(void **state) {
+    (void)state;
+    static const char *const axes[] = { "Y_UP", "Z_UP" };
+    static const char lying[] = COLLADA(DIFFUSE("1 1 1 1"), DIFFUSE("1 1 1 1"));
+    for (int z = 0; z < 2; z++) {
+        char text[sizeof lying];
+        strcpy(text, lying);
+        memcpy(strstr(text, "Y_UP"), axes[z], 4);
+        scene s = load_text("up.dae", text);
+        assert_true((s.maximum[1] == 1) == !z && (s.minimum[2] == -1) == z);
+        scene_free(&s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_collada_counts_opacity_as_its_exporter_does),
         cmocka_unit_test(blanks_before_a_number_do_not_count),
         cmocka_unit_test(emission_of_fixed_pipelines_is_no_lamp),
         cmocka_unit_test(colors_of_vertices_are_told_of),
+        cmocka_unit_test(a_format_whose_z_is_up_stands),
+        cmocka_unit_test(a_collada_stands_by_its_up_axis),
         cmocka_unit_test(a_raw_file_shows_all_its_objects),
         cmocka_unit_test(files_may_be_utf16),
         cmocka_unit_test(an_accessor_past_its_array_is_refused),

@@ -36,7 +36,7 @@ static bool export_to(const char *from, int up, const scene_light *lights, size_
     scene world = open_up(from, up);
     error = (base_error) { "" };
     const bool ok =
-        scene_export_gltf(&world, up, lights, count, in_folder(to), lost, sizeof lost, &error);
+        scene_export_gltf(&world, lights, count, in_folder(to), lost, sizeof lost, &error);
     scene_free(&world);
     return ok;
 }

@@ -39,8 +39,8 @@ static void a_format_without_sides_culls_none(void **state) {
         assert_true(is_seen(&world, 1) && is_seen(&world, -1));
         scene_free(&world);
     }
-    folder_write_text("m.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
-                               "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n");
+    folder_write_text("m.stl", "solid s\nfacet normal 0 -1 0\nouter loop\nvertex 0 0 0\n"
+                               "vertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid s\n");
     scene world = load(in_folder("m.stl"));
     assert_true(is_seen(&world, 1) && is_seen(&world, -1));
     scene_free(&world);

@@ -46,6 +46,20 @@ status=0
 [ $status = 1 ] && grep -q 'camera: --camera and --framing exclude each other' err || fail "$status: $(cat err)"
 [ ! -e none.png ] || fail "an image beside an error"
 
+# A file whose z is up is rotated and that printed, from the cache too; not where an axis was chosen.
+printf 'solid s\nfacet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 3\nendloop\nendfacet\nendsolid s\n' >flag.stl
+for time in 1 2; do
+    "$PROGRAM" render flag.stl $small -o auto.png 2>err
+    grep -q 'flag.stl: z is up in this kind of file, so it was rotated (--up y leaves it as it is)' err || fail "$(cat err)"
+done
+for up in y z; do
+    "$PROGRAM" render flag.stl $small --up $up -o $up.png 2>err
+    ! grep -q rotated err || fail "--up $up: $(cat err)"
+done
+cmp -s auto.png z.png && ! cmp -s auto.png y.png || fail "the axis that was found is not --up z"
+"$PROGRAM" info --quiet flag.stl >info 2>err
+[ ! -s err ] || fail "--quiet: $(cat err)"
+
 # Exposure depends neither on shadows nor on lamps that are seen.
 for options in '' --shadows --hide-lights '--shadows --hide-lights'; do
     "$PROGRAM" render box.obj $small --lights lamps.json --environment studio --stats --repeat 1 $options -o lit.png 2>err |

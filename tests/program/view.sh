@@ -365,13 +365,17 @@ test_edit() {
 0.7  key Ctrl+Z
 0.8  key Ctrl+S
 0.9  shot edited.png
-1.0  drop builtin:ball
-1.2  shot other.png
-1.3  key Ctrl+O
-1.4  type lampion-lights-0001.json
-1.5  key Enter
-1.6  key Ctrl+Q
+1.0  drop flag.stl
+1.2  shot flag.png
+1.3  drop builtin:ball
+1.5  shot other.png
+1.6  key Ctrl+O
+1.7  type lampion-lights-0001.json
+1.8  key Enter
+1.9  key Ctrl+Q
 EDIT
+    facet='facet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 3\nendloop\nendfacet'
+    printf "solid s\n$facet\nendsolid s\n" >flag.stl
     edit="--eye 0,1,6 --target 0,1,0 --size 160x90 --samples 1"
     "$PROGRAM" view room.obj --lights lights.json $edit --script edit.txt --state state.json || fail "editing ends in $?"
     is value scene '"builtin:ball"' || fail "the dropped scene is not opened: $(value scene)"
@@ -379,8 +383,10 @@ EDIT
         fail "the typed radius is not saved: $(cat lampion-lights-0001.json)"
     [ "$(grep -c '"kind"' lampion-lights-0001.json)" = 2 ] || fail "not two lights are saved"
     [ "$(grep -c '"kind"' state.json)" = 2 ] || fail "the saved lights are not read by Ctrl+O"
-    "$PROGRAM" render --from other.png -o again.png
-    cmp other.png again.png || fail "an image of the dropped scene is repeated otherwise"
+    for dropped in flag other; do # the first was rotated, because z is up in it
+        "$PROGRAM" render --from $dropped.png -o again.png
+        cmp $dropped.png again.png || fail "the image of a dropped scene, $dropped.png, is repeated otherwise"
+    done
     for lights in edited.png lampion-lights-0001.json; do
         "$PROGRAM" render room.obj --lights "$lights" --size 32x18 -o "${lights%.*}-lit.png" || fail "--lights $lights: $?"
     done

@@ -262,10 +262,12 @@ static void another_scene_starts_afresh(void **unused) {
     drop("builtin:balls");
     assert_true(state.requests.reload);
     assert_string_equal(state.other, "builtin:balls");
-    assert_true(scene_load("builtin:balls", NULL, &other, &error));
+    assert_true(scene_load("builtin:balls", &(scene_options) { .up = SCENE_UP_Z }, &other, &error));
+    assert_int_equal(state.now.up, SCENE_UP_Y);
     view_tree *grown = view_tree_begin(&other, &error);
     assert_true(grown && view_state_replace_scene(&state, &other, grown, &error));
     assert_string_equal(state.now.scene, "builtin:balls");
+    assert_int_equal(state.now.up, SCENE_UP_Z);
     assert_int_equal(state.now.light_count, other.light_count);
     assert_int_equal(state.now.material_count, 0);
     assert_true(state.requests.expose && !state.other[0]);

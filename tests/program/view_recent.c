@@ -97,6 +97,10 @@ static void a_session_is_resumed(void **unused) {
     view_resume_session(&v);
     assert_int_equal(v.state.now.light_count, 1);
     open_scene("builtin:ball");
+    v.state.now.up = SCENE_UP_Z; /* nor where another axis is up */
+    view_resume_session(&v);
+    assert_int_equal(v.state.now.light_count, 1);
+    v.state.now.up = SCENE_UP_Y;
     view_resume_session(&v);
     assert_int_equal(v.state.now.light_count, 2);
     CHECK_NEAR(0.7f, v.state.now.lights[1].emitter.radius, 0);

@@ -248,6 +248,7 @@ static void settings_are_written_in_the_world(void **state) {
     static view_settings made, read;
     base_error error;
     made = (view_settings) { .scene = "far.gltf",
+                             .up = SCENE_UP_Y,
                              .width = 16,
                              .height = 9,
                              .samples = 1,

@@ -25,7 +25,6 @@ enum { PUNCTUAL, AREA, EXTENSIONS };
 /* A copy in the making, and what glTF cannot say. */
 typedef struct export {
     const scene *world;
-    int up;
     json_t *nodes, *children, *lights[EXTENSIONS];
     size_t left_out[SCENE_LIGHT_KIND_COUNT], parallel, seen;
     bool ok; /* whether memory has sufficed so far */
@@ -92,8 +91,9 @@ static json_t *make_light(const char *type, lmp_rgb color, double by) {
 /* Writes a vector in the axes of the file as a column of a matrix. */
 static void set_column(const export *e, const double v[3], double column[3]) {
     column[0] = v[0];
-    column[1] = e->up == SCENE_UP_Z ? -v[2] : v[1];
-    column[2] = e->up == SCENE_UP_Z ? v[1] : v[2];
+    const bool stood = e->world->up == SCENE_UP_Z;
+    column[1] = stood ? -v[2] : v[1];
+    column[2] = stood ? v[1] : v[2];
 }
 
 /* Adds a light and the node that holds it, which has its unit x and z axis along these vectors. */
@@ -415,14 +415,14 @@ bool scene_is_gltf(const char *name) {
            (strcasecmp(dot, ".gltf") == 0 || strcasecmp(dot, ".glb") == 0);
 }
 
-bool scene_export_gltf(const scene *world, int up, const scene_light *lights, size_t count,
+bool scene_export_gltf(const scene *world, const scene_light *lights, size_t count,
                        const char *path, char *lost, size_t lost_size, base_error *error) {
     void *data;
     size_t size;
     gltf document;
     scene_builder notes = { .out_of_memory = false };
     source_set sources = { .subject = world->name };
-    export e = { .world = world, .up = up };
+    export e = { .world = world };
     if (!scene_is_gltf(world->name))
         return base_fail(error, world->name,
                          "is not glTF, which alone can carry lights: export them as .json");

@@ -359,6 +359,29 @@ static size_t count_colored(const struct aiScene *imported) {
     return count;
 }
 
+/* Whether z is up in a FBX file, which says so; newer versions of Assimp rotate its root by that.
+ */
+static bool says_z_is_up(const struct aiScene *imported) {
+    const struct aiMetadata *const said = imported->mMetaData;
+    for (unsigned i = 0; said && i < said->mNumProperties; i++)
+        if (strcmp(said->mKeys[i].data, "UpAxis") == 0 && said->mValues[i].mType == AI_INT32)
+            return *(const int32_t *)said->mValues[i].mData == 2 &&
+                   imported->mRootNode->mTransformation.b2 != 0.0f;
+    return false;
+}
+
+/* Whether z is up in the format, and Assimp leaves it so. It rotates 3DS, ASE, DXF, IFC and the
+ * models of Quake, and COLLADA by its <up_axis>. */
+static bool has_z_up(const char *name) {
+    static const char *const endings[] = { ".3mf", ".amf", ".blend", ".cob", ".hmp",
+                                           ".scn", ".smd", ".stl",   ".ter", ".vta" };
+    const char *const dot = strrchr(name, '.');
+    for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
+        if (strcasecmp(dot, endings[i]) == 0)
+            return true;
+    return false;
+}
+
 bool assimp_add(const void *data, size_t size, source_set *sources, scene_builder *builder,
                 base_error *error) {
     const char *slash = strrchr(sources->subject, '/');
@@ -377,6 +400,8 @@ bool assimp_add(const void *data, size_t size, source_set *sources, scene_builde
     const struct aiScene *imported = run_assimp(&job, error);
     if (!imported)
         return false;
+    if (has_z_up(job.name) || says_z_is_up(imported))
+        builder->up = SCENE_UP_Z;
     job.shared = malloc((imported->mNumMeshes + 1) * sizeof *job.shared);
     const char *const dot = strrchr(job.name, '.');
     job.flat_normals = dot && strcasecmp(dot, ".stl") == 0;

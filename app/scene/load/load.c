@@ -64,6 +64,13 @@ static bool tell_unsupported(const scene *s, bool strict, base_error *error) {
     return true;
 }
 
+/* Says that a file was rotated because of its format. */
+static void tell_up(const scene *s, int asked) {
+    if (asked == SCENE_UP_AUTO && s->up == SCENE_UP_Z)
+        base_note(s->name,
+                  "z is up in this kind of file, so it was rotated (--up y leaves it as it is)");
+}
+
 /* Marks leaves as translucent and reports that on stderr. */
 static bool let_leaves_through(scene *s, const scene_options *chosen, base_error *error) {
     size_t count = 0;
@@ -89,6 +96,7 @@ static bool load(const char *name, const scene_options *chosen, scene *s, base_e
                    : load_builtin(name, chosen->up, s, error);
     if (!import_scene(name, chosen, s, error))
         return hint_builtin(name, error);
+    tell_up(s, chosen->up);
     if ((chosen->no_texels || scene_decode_images(s, error)) &&
         tell_unsupported(s, chosen->strict, error) && let_leaves_through(s, chosen, error))
         return true;

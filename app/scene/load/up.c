@@ -2,7 +2,7 @@
 #include "app/scene/load/up.h"
 #include "app/scene/vector.h"
 
-const char *const scene_up_names[] = { "y", "z", NULL };
+const char *const scene_up_names[] = { "auto", "y", "z", NULL };
 
 /* Makes a z-up vector y-up, exactly: z becomes y, and y becomes -z. */
 static lmp_vec3 standing(lmp_vec3 v) {
@@ -31,7 +31,11 @@ static void stand_geometry(scene_builder *builder) {
 }
 
 void up_stand(scene_builder *builder, int up) {
-    if (up == SCENE_UP_Y)
+    if (up != SCENE_UP_AUTO)
+        builder->up = up;
+    else if (builder->up == SCENE_UP_AUTO)
+        builder->up = SCENE_UP_Y;
+    if (builder->up == SCENE_UP_Y)
         return;
     const double z = builder->origin[2];
     builder->origin[2] = 0.0 - builder->origin[1]; /* keeps 0 from becoming -0 */

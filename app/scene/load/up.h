@@ -5,7 +5,8 @@
 
 #include "app/scene/builder.h"
 
-/* Rotates everything in the builder by a quarter turn around x, so that the axis `up` becomes y. */
+/* Resolves which axis of the file points up: `up` or, with AUTO, what the reader found, else y. If
+ * it is z, rotates everything in the builder by a quarter turn around x, so that it becomes y. */
 void up_stand(scene_builder *builder, int up);
 
 #endif
