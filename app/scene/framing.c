@@ -3,6 +3,7 @@
 #include "app/scene/instance.h"
 #include "app/scene/interior.h"
 #include "app/scene/space.h"
+#include "app/scene/subject.h"
 #include "app/scene/vector.h"
 
 #define DEFAULT_FOV   0.7854f /* 45° */
@@ -10,7 +11,6 @@
 #define INSIDE_BACK   0.8f    /* fraction of the distance to the wall behind */
 #define INSIDE_HEIGHT 0.4f    /* fraction of a room's height */
 #define FRAMING_PART  0.9f    /* fraction of the image that a model fills at most */
-#define SUBJECT_PART  0.02f /* fraction of a scene that a model in wide surroundings has at most */
 
 /* Looks at the middle of a room from where most of it is visible. Where no wall limits how far the
  * camera may go, it looks ahead from the middle. */
@@ -40,53 +40,11 @@ static scene_camera camera_inside(const scene *s, lmp_vec3 middle) {
 
 /* --- outside ---------------------------------------------------------------------------------- */
 
-typedef struct box {
-    lmp_vec3 low, high;
-} box;
-
-static box box_of(const scene *s, size_t instance) {
-    float low[3], high[3];
-    scene_instance_box(s, instance, low, high);
-    return (box) { vec_load(low), vec_load(high) };
-}
-
-static float size_of(const box *b) {
-    return vec_length(vec_sub(b->high, b->low));
-}
-
-static void add_box(const box *b, box *sum) {
-    sum->low =
-        vec(fminf(sum->low.x, b->low.x), fminf(sum->low.y, b->low.y), fminf(sum->low.z, b->low.z));
-    sum->high = vec(fmaxf(sum->high.x, b->high.x), fmaxf(sum->high.y, b->high.y),
-                    fmaxf(sum->high.z, b->high.z));
-}
-
-/* What is framed: instances up to a size, and the box of all. It is the whole scene, or what is
- * small and together in it: a model on ground that reaches to the horizon, or under a dome. */
-typedef struct subject {
-    float largest;
-    box bounds;
-} subject;
-
-static subject find_subject(const scene *s) {
-    const box whole = { vec_load(s->minimum), vec_load(s->maximum) };
-    const float most = SUBJECT_PART * size_of(&whole);
-    subject found = { most,
-                      { vec(INFINITY, INFINITY, INFINITY), vec(-INFINITY, -INFINITY, -INFINITY) } };
-    for (size_t i = 0; i < s->instance_count; i++) {
-        const box b = box_of(s, i);
-        if (size_of(&b) <= most)
-            add_box(&b, &found.bounds);
-    }
-    const float size = size_of(&found.bounds);
-    return size > 0 && size <= most ? found : (subject) { INFINITY, whole };
-}
-
 /* The view pyramid of a model, with these slopes, looking along -from. Its planes touch the model
  * where x + slope z and -x + slope z are largest, which gives the position of its tip between two
  * of them. */
 typedef struct pyramid {
-    subject subject;
+    scene_subject subject;
     lmp_vec3 center, right, up, from;
     float slope[2];    /* across, along up */
     float touching[4]; /* distance of the plane that touches: right, left, top, bottom */
@@ -106,13 +64,11 @@ static void reach_of(const pyramid *f, lmp_vec3 point, float sides[4], float *ra
 
 /* Whether the instance's box may reach farther than what has been touched so far. */
 static bool may_touch(const scene *s, size_t instance, const pyramid *f) {
-    const box b = box_of(s, instance);
-    float sides[4], radius;
-    if (!(size_of(&b) <= f->subject.largest))
-        return false;
+    float low[3], high[3], sides[4], radius;
+    scene_instance_box(s, instance, low, high);
     for (int i = 0; i < 8; i++) {
         const lmp_vec3 corner =
-            vec(i & 1 ? b.high.x : b.low.x, i & 2 ? b.high.y : b.low.y, i & 4 ? b.high.z : b.low.z);
+            vec(i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]);
         reach_of(f, corner, sides, &radius);
         for (int k = 0; k < 4; k++)
             if (!(sides[k] <= f->touching[k]))
@@ -123,21 +79,33 @@ static bool may_touch(const scene *s, size_t instance, const pyramid *f) {
     return false;
 }
 
+/* Whether a triangle belongs to what is framed. */
+static bool is_framed(const scene_subject *subject, const float corners[3][3]) {
+    for (int i = 0; i < 3 && subject->part; i++) {
+        const lmp_vec3 p = vec_load(corners[i]);
+        if (!(p.x >= subject->low.x && p.y >= subject->low.y && p.z >= subject->low.z &&
+              p.x <= subject->high.x && p.y <= subject->high.y && p.z <= subject->high.z))
+            return false;
+    }
+    return true;
+}
+
 static void touch(const scene *s, pyramid *f) {
     for (int i = 0; i < 4; i++)
         f->touching[i] = -INFINITY;
     for (size_t i = 0; i < s->instance_count; i++) {
         if (!may_touch(s, i, f))
             continue;
-        const scene_mesh *mesh = &s->meshes[s->instances[i].mesh];
-        for (uint32_t k = 0; k < mesh->index_count; k++) {
-            float p[3], sides[4], radius;
-            scene_instance_point(&s->instances[i],
-                                 s->vertices[s->indices[mesh->first_index + k]].position, p);
-            reach_of(f, vec_load(p), sides, &radius);
-            for (int side = 0; side < 4; side++)
-                f->touching[side] = fmaxf(f->touching[side], sides[side]);
-            f->radius = fmaxf(f->radius, radius);
+        for (uint32_t n = 0; n < scene_instance_triangles(s, i); n++) {
+            float corners[3][3], sides[4], radius;
+            scene_triangle_positions(s, i, n, corners);
+            const bool framed = is_framed(&f->subject, (const float(*)[3])corners);
+            for (int k = 0; k < 3 && framed; k++) {
+                reach_of(f, vec_load(corners[k]), sides, &radius);
+                for (int side = 0; side < 4; side++)
+                    f->touching[side] = fmaxf(f->touching[side], sides[side]);
+                f->radius = fmaxf(f->radius, radius);
+            }
         }
     }
 }
@@ -163,18 +131,17 @@ static float fit(const scene *s, pyramid *f) {
 }
 
 /* Puts the model in the middle of the image, as near as fits. */
-static scene_camera camera_before(const scene *s, int quarter, float aspect) {
+static scene_camera camera_before(const scene *s, const scene_frame *frame, float aspect) {
     static const float from[4][2] = {
         { 0.45f, 1.0f }, { 1.0f, -0.45f }, { -0.45f, -1.0f }, { -1.0f, 0.45f }
     };
-    const subject seen = find_subject(s);
-    const lmp_vec3 center =
-        vec_add(vec_scale(seen.bounds.low, 0.5f), vec_scale(seen.bounds.high, 0.5f));
+    const scene_subject *const seen = &frame->subject;
+    const float *const way = from[frame->quarter];
+    const lmp_vec3 center = vec_add(vec_scale(seen->low, 0.5f), vec_scale(seen->high, 0.5f));
     const float slope = FRAMING_PART * (float)tan(0.5 * (double)DEFAULT_FOV);
-    pyramid f = { .subject = seen,
+    pyramid f = { .subject = *seen,
                   .center = center,
-                  .from = vec_normalize(vec(from[quarter][0], 0.35f, from[quarter][1]),
-                                        vec(0.0f, 0.0f, 1.0f)),
+                  .from = vec_normalize(vec(way[0], 0.35f, way[1]), vec(0.0f, 0.0f, 1.0f)),
                   .slope = { slope * aspect, slope },
                   .radius = 1e-18f };
     f.right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), f.from), f.from);
@@ -229,28 +196,35 @@ static int best_quarter(const scene_interior *found) {
     return best;
 }
 
-/* Whether every material is drawn from both sides, as those of formats that say nothing of sides
+/* Whether everything is drawn from both sides, as those of formats that say nothing of sides
  * are. */
 static bool draws_backs(const scene *s) {
-    for (size_t i = 0; i < s->material_count; i++)
-        if (!(s->materials[i].flags & SCENE_DOUBLE_SIDED))
+    for (size_t i = 0; i < s->instance_count && s->material_count > 0; i++)
+        if (!(s->materials[scene_instance_material(s, i)].flags & SCENE_DOUBLE_SIDED))
             return false;
     return s->material_count > 0;
 }
 
 /* Returns the fraction of the upper sky that reaches what is framed from outside. Cells as large as
  * a model in wide surroundings tell only whether these close above it, as a dome does. */
-static float find_sky(const scene *s, const scene_grid *grid, int quarter) {
-    const subject seen = find_subject(s);
-    lmp_vec3 above = vec_scale(vec_add(seen.bounds.low, seen.bounds.high), 0.5f);
+static float find_sky(const scene *s, const scene_grid *grid, const scene_frame *frame) {
+    lmp_vec3 above = vec_scale(vec_add(frame->subject.low, frame->subject.high), 0.5f);
     above.y += 0.05f * vec_length(vec_sub(vec_load(s->maximum), vec_load(s->minimum)));
-    if (isfinite(seen.largest))
+    if (frame->subject.part)
         return scene_interior_closes(grid, above) ? 0.0f : 1.0f;
-    return scene_interior_sky(grid, quarter, draws_backs(s));
+    return scene_interior_sky(grid, frame->quarter, draws_backs(s));
+}
+
+/* Whether a scene is seen from inside. An empty shell that is drawn from outside as well is a body
+ * inside out rather than a room. */
+static bool is_room(const scene *s, const scene_interior *found) {
+    return found->inside && !(found->bare && draws_backs(s));
 }
 
 static scene_frame find_frame(const scene *s, scene_framing wanted) {
-    scene_frame frame = { .wanted = wanted, .framing = wanted, .sky = 1.0f };
+    scene_frame frame = {
+        .wanted = wanted, .framing = wanted, .subject = scene_subject_find(s), .sky = 1.0f
+    };
     scene_grid *grid = s->index_count > 0 ? scene_grid_create(s) : NULL;
     if (frame.framing == SCENE_FRAMING_AUTO)
         frame.framing = SCENE_FRAMING_OUTSIDE;
@@ -260,9 +234,9 @@ static scene_frame find_frame(const scene *s, scene_framing wanted) {
     frame.middle = found.middle;
     frame.quarter = best_quarter(&found);
     if (s->camera_count == 0 || wanted == SCENE_FRAMING_OUTSIDE)
-        frame.sky = find_sky(s, grid, frame.quarter);
+        frame.sky = find_sky(s, grid, &frame);
     frame.own = s->camera_count > 0 && scene_interior_closes(grid, vec_load(s->cameras->eye));
-    if (wanted == SCENE_FRAMING_AUTO && (s->camera_count > 0 ? frame.own : found.inside))
+    if (wanted == SCENE_FRAMING_AUTO && (s->camera_count > 0 ? frame.own : is_room(s, &found)))
         frame.framing = SCENE_FRAMING_INSIDE;
     scene_grid_destroy(grid);
     return frame;
@@ -287,7 +261,7 @@ scene_camera scene_framed_camera(const scene *s, scene_framing framing, float as
         framing = frame.framing;
     if (framing == SCENE_FRAMING_INSIDE)
         return frame.own ? own_camera(s, aspect) : camera_inside(s, frame.middle);
-    return camera_before(s, frame.quarter, aspect > 0.0f ? aspect : 1.0f);
+    return camera_before(s, &frame, aspect > 0.0f ? aspect : 1.0f);
 }
 
 scene_camera scene_default_camera(const scene *s, float aspect) {

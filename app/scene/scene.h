@@ -164,14 +164,21 @@ typedef enum scene_framing {
 } scene_framing;
 extern const char *const scene_framing_names[];
 
+/* What a camera outside frames: a box, and whether it is but a part of the scene. */
+typedef struct scene_subject {
+    lmp_vec3 low, high;
+    bool part;
+} scene_subject;
+
 /* The framing of a scene (app/scene/framing.c). */
 typedef struct scene_frame {
     scene_framing wanted, framing; /* what the options ask for; what was found, AUTO until then */
     bool own;                      /* whether the file's first camera is the one inside */
     lmp_vec3 middle;               /* of the room, where a camera inside stands if not the file's */
-    int quarter;                   /* quarter turns around the model of a camera outside */
-    float sky; /* fraction of the upper sky that reaches what a camera outside sees; 1 for the
-                  file's */
+    scene_subject subject;
+    int quarter; /* quarter turns around the model of a camera outside */
+    float sky;   /* fraction of the upper sky that reaches what a camera outside sees; 1 for the
+                    file's */
 } scene_frame;
 
 /* Views into one block of memory, whose indices and ranges have been validated and are never out of

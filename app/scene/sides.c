@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/sides.h"
 
+#include "app/scene/joined.h"
 #include "app/scene/leak.h"
 #include "app/scene/random.h"
 
@@ -34,66 +35,6 @@ typedef struct sides {
     size_t body_count;
 } sides;
 
-/* --- which vertices are one body's ------------------------------------------------------------ */
-
-static uint64_t hash_of(const float position[3]) {
-    uint64_t hash = 0;
-    for (int k = 0; k < 3; k++) {
-        const float x = position[k] + 0.0f; /* makes both zeros equal */
-        uint32_t bits;
-        memcpy(&bits, &x, sizeof bits);
-        hash += bits;
-        hash = random_bits(&hash);
-    }
-    return hash;
-}
-
-static bool is_same(const float a[3], const float b[3]) {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-static uint32_t leader_of(uint32_t *joined, uint32_t vertex) {
-    while (joined[vertex] != vertex) {
-        joined[vertex] = joined[joined[vertex]];
-        vertex = joined[vertex];
-    }
-    return vertex;
-}
-
-/* Joins two sets; the lowest number becomes the leader. */
-static void join(uint32_t *joined, uint32_t a, uint32_t b) {
-    a = leader_of(joined, a);
-    b = leader_of(joined, b);
-    joined[a > b ? a : b] = a > b ? b : a;
-}
-
-static size_t slots_for(size_t count) {
-    size_t slots = 64;
-    while (slots < 2 * count)
-        slots *= 2;
-    return slots;
-}
-
-/* Finds for each vertex the first one at its position. */
-static bool join_positions(sides *s) {
-    const size_t slots = slots_for(s->vertex_count);
-    uint32_t *const table = malloc(slots * sizeof *table);
-    if (!table)
-        return false;
-    memset(table, 0xff, slots * sizeof *table);
-    for (uint32_t i = 0; i < s->vertex_count; i++) {
-        const float *const at = s->vertices[i].position;
-        size_t slot = hash_of(at) & (slots - 1);
-        while (table[slot] != NONE && !is_same(s->vertices[table[slot]].position, at))
-            slot = (slot + 1) & (slots - 1);
-        if (table[slot] == NONE)
-            table[slot] = i;
-        s->same[i] = table[slot];
-    }
-    free(table);
-    return true;
-}
-
 static uint32_t *corners_of(const sides *s, size_t mesh) {
     return s->indices + s->all[s->meshes[mesh]].first_index;
 }
@@ -110,17 +51,11 @@ static bool number_bodies(sides *s) {
     for (size_t m = 0; m < s->mesh_count; m++)
         for (uint32_t i = 0; i < corner_count(s, m); i += 3) {
             const uint32_t *const c = corners_of(s, m) + i;
-            join(s->joined, c[0] - s->first, c[1] - s->first);
-            join(s->joined, c[0] - s->first, c[2] - s->first);
+            joined_join(s->joined, c[0] - s->first, c[1] - s->first);
+            joined_join(s->joined, c[0] - s->first, c[2] - s->first);
         }
-    for (uint32_t i = 0; i < s->vertex_count; i++)
-        s->body_count += s->joined[i] == i;
+    s->body_count = joined_number(s->joined, s->vertex_count);
     s->bodies = calloc(s->body_count + 1, sizeof *s->bodies);
-    uint32_t next = 0;
-    for (uint32_t i = 0; s->bodies && i < s->vertex_count; i++) {
-        const uint32_t from = s->joined[i];
-        s->joined[i] = from == i ? next++ : s->joined[from];
-    }
     return s->bodies != NULL;
 }
 
@@ -171,7 +106,7 @@ typedef struct edge {
 
 /* Counts for each body the edges that are not used equally often in both directions. */
 static bool count_open_edges(sides *s) {
-    const size_t slots = slots_for(s->corner_count);
+    const size_t slots = joined_slots(s->corner_count);
     edge *const table = malloc(slots * sizeof *table);
     if (!table)
         return false;
@@ -317,7 +252,8 @@ static bool find_bodies(sides *s, scene_builder *builder, const uint32_t *meshes
         return true;
     s->same = malloc(s->vertex_count * sizeof *s->same);
     s->joined = malloc(s->vertex_count * sizeof *s->joined);
-    if (!s->same || !s->joined || !join_positions(s) || !number_bodies(s))
+    if (!s->same || !s->joined || !joined_positions(s->vertices, s->vertex_count, s->same) ||
+        !number_bodies(s))
         return false;
     measure_bounds(s);
     measure_insides(s);

@@ -333,7 +333,7 @@ static void objects_inside_out_are_seen_from_outside(void **state) {
                     { "helmet", helmet, 0, 4 }, { "shield", shield, 0, 3 },
                     { "bowl", bowl, 0, 4 },     { "well", well, 0, 2 },
                     { "car", car, 0, 4 },       { "pencil", pencil, 0, 2 },
-                    { "boards", boards, 0, 1 } };
+                    { "boards", boards, 0, 1 }, { "crate", crate, 0, 1 } };
     shape *s = malloc(sizeof *s);
     scene_material material = scene_material_plain();
     material.flags |= SCENE_DOUBLE_SIDED;
@@ -350,6 +350,26 @@ static void objects_inside_out_are_seen_from_outside(void **state) {
             if (scene_is_inside(&world))
                 fail_msg("%s %d is seen from inside", objects[i].name, kind);
             assert_true(environment_suits_shadows(true, &world));
+        }
+    free(s);
+}
+
+/* An empty shell is a room, unless it is drawn from outside as well: then it is as likely a body
+ * inside out. A window, furniture or a second room make it a room. */
+static void an_empty_room_has_no_outside(void **state) {
+    (void)state;
+    static const char inside[] = "oooiiioi";
+    shape *s = malloc(sizeof *s);
+    scene_material material = scene_material_plain();
+    for (int sides = 1; sides <= 2; sides++, material.flags |= SCENE_DOUBLE_SIDED)
+        for (int kind = 0; inside[kind]; kind++) {
+            shape_clear(s);
+            room(s, kind);
+            scene world = shape_scene(s);
+            world.materials = &material;
+            world.material_count = 1;
+            if (scene_is_inside(&world) != (sides == 1 || inside[kind] == 'i'))
+                fail_msg("room %d with %d sides", kind, sides);
         }
     free(s);
 }
@@ -518,14 +538,62 @@ static void a_model_is_framed_in_wide_surroundings(void **state) {
     free(s);
 }
 
+/* Makes a wide plate as one surface, or as squares that share no vertex. */
+static void ground(shape *s, float r, int squares) {
+    const float step = 2 * r / (float)squares;
+    for (int i = 0; i < squares * squares; i++) {
+        const int column = i % squares, row = i / squares;
+        const float x[2] = { (float)column * step - r, (float)(column + 1) * step - r },
+                    z[2] = { (float)row * step - r, (float)(row + 1) * step - r };
+        const lmp_vec3 quad[4] = {
+            { x[0], 0, z[0] }, { x[0], 0, z[1] }, { x[1], 0, z[1] }, { x[1], 0, z[0] }
+        };
+        shape_quad(s, quad, false);
+    }
+}
+
+/* So is a model that is a mesh with the level ground that it stands on, whether that is one quad or
+ * as fine as the model; not a detail of a building or an object, nor a stray triangle. */
+static void a_model_is_framed_that_is_one_mesh_with_its_ground(void **state) {
+    (void)state;
+    shape *s = malloc(sizeof *s);
+    for (int squares = 1; squares <= 60; squares += 59) {
+        shape_clear(s);
+        ground(s, 100, squares);
+        block(s, 20, 0.1f, 10, 1, 2, 1);
+        const scene world = shape_scene(s);
+        const scene_camera camera = scene_default_camera(&world, 1.5f);
+        const lmp_vec3 eye = vec_load(camera.eye), target = vec_load(camera.target);
+        assert_true(vec_length(vec_sub(eye, target)) < 8);
+        assert_true(vec_length(vec_sub(target, vec(20, 1.1f, 10))) < 0.5f);
+    }
+    for (int detail = 0; detail < 2; detail++) {
+        shape_clear(s);
+        if (detail == 0)
+            block(s, 0, 0, 0, 100, 60, 100); /* with a knob */
+        else
+            ground(s, 100, 1); /* with a splinter */
+        if (detail == 0)
+            block(s, 50.1f, 10, 0, 0.1f, 0.1f, 0.1f);
+        else
+            shape_triangle(s, vec(0, 1, 0), vec(1, 1, 0), vec(0, 2, 0));
+        const scene world = shape_scene(s);
+        const scene_camera camera = scene_default_camera(&world, 1.5f);
+        assert_true(vec_length(vec_sub(vec_load(camera.eye), vec_load(camera.target))) > 50);
+    }
+    free(s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sixty_shapes_are_seen_from_where_a_person_would_stand),
         cmocka_unit_test(objects_inside_out_are_seen_from_outside),
+        cmocka_unit_test(an_empty_room_has_no_outside),
         cmocka_unit_test(a_box_is_looked_into_from_where_it_is_open),
         cmocka_unit_test(the_sky_reaches_what_is_seen_from_outside),
         cmocka_unit_test(the_framing_that_is_chosen_is_taken),
         cmocka_unit_test(a_model_is_framed_in_wide_surroundings),
+        cmocka_unit_test(a_model_is_framed_that_is_one_mesh_with_its_ground),
         cmocka_unit_test(random_lights_are_where_the_camera_of_a_large_scene_looks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
