@@ -25,40 +25,53 @@ static float ring_angle(float ring) {
     return PI * part * part * part;
 }
 
+/* A direction of light, along the mirrored eye and two axes across it, and its solid angle. */
+typedef struct beam {
+    float u, w, mirror, solid_angle;
+} beam;
+
+static void find_beams(beam beams[RINGS * IN_RING]) {
+    for (int i = 0; i < RINGS * IN_RING; i++) {
+        const int ring = i / IN_RING;
+        const float inner = ring_angle((float)ring), outer = ring_angle((float)ring + 1);
+        const float angle = 0.5f * (inner + outer), across = sinf(angle);
+        const float around = 2 * PI * (float)i / IN_RING + 2.3999632f * (float)ring;
+        beams[i] = (beam) { across * cosf(around), across * sinf(around), cosf(angle),
+                            2 * PI * across * (outer - inner) / IN_RING };
+    }
+}
+
 /* Returns what the ball reflects to the eye, which is far along z, where it faces `normal`. */
-static lmp_rgb reflect(const lmp_brdf *brdf, lmp_vec3 normal) {
+static lmp_rgb reflect(const lmp_brdf *brdf, const beam *beams, lmp_vec3 normal) {
     const lmp_vec3 x = vec_across(normal), y = vec_cross(normal, x);
     const lmp_vec3 eye = vec(x.z, y.z, normal.z);
     const lmp_vec3 mirror = vec_sub(vec_scale(normal, 2 * normal.z), vec(0, 0, 1));
     const lmp_vec3 u = vec_across(mirror), w = vec_cross(mirror, u);
     lmp_rgb sum = { 0, 0, 0 };
     for (int i = 0; i < RINGS * IN_RING; i++) {
-        const int ring = i / IN_RING;
-        const float inner = ring_angle((float)ring), outer = ring_angle((float)ring + 1);
-        const float angle = 0.5f * (inner + outer), across = sinf(angle);
-        const float around = 2 * PI * (float)i / IN_RING + 2.3999632f * (float)ring;
+        const beam *const b = &beams[i];
         const lmp_vec3 from =
-            vec_add(vec_scale(mirror, cosf(angle)), vec_add(vec_scale(u, across * cosf(around)),
-                                                            vec_scale(w, across * sinf(around))));
+            vec_add(vec_scale(mirror, b->mirror), vec_add(vec_scale(u, b->u), vec_scale(w, b->w)));
         const lmp_vec3 in = vec(vec_dot(from, x), vec_dot(from, y), vec_dot(from, normal));
         if (in.z <= 0)
             continue;
         const lmp_rgb f = lmp_brdf_eval(brdf, in, eye);
-        const float solid_angle = 2 * PI * across * (outer - inner) / IN_RING;
-        const float weight = solid_angle * in.z * radiance_from(from);
+        const float weight = b->solid_angle * in.z * radiance_from(from);
         sum = (lmp_rgb) { sum.r + weight * f.r, sum.g + weight * f.g, sum.b + weight * f.b };
     }
     return sum;
 }
 
 static void draw(const lmp_brdf *brdf, float *rgb) {
+    beam beams[RINGS * IN_RING];
+    find_beams(beams);
     for (int i = 0; i < VIEW_BALL_SIZE * VIEW_BALL_SIZE; i++, rgb += 3) {
         const float x = 2 * ((float)(i % VIEW_BALL_SIZE) + 0.5f) / VIEW_BALL_SIZE - 1;
         const float y = 1 - 2 * ((float)(i / VIEW_BALL_SIZE) + 0.5f) / VIEW_BALL_SIZE;
         const float z2 = 1 - x * x - y * y;
         rgb[0] = -1;
         if (z2 > 0)
-            rgb_store(reflect(brdf, vec(x, y, sqrtf(z2))), rgb);
+            rgb_store(reflect(brdf, beams, vec(x, y, sqrtf(z2))), rgb);
         for (int k = 0; k < 3 && z2 > 0; k++)
             rgb[k] = fminf(rgb[k], 1);
     }

@@ -13,6 +13,7 @@
 #define CHECK_NEAR(expected, actual, bound)                                                        \
     CHECK_WITHIN(fabs((double)(actual) - (double)(expected)), bound)
 
+/* Loaded once, because no test changes them. */
 static scene world;
 static view_tree *tree;
 static view_state state;
@@ -22,7 +23,7 @@ static int open_state(void **unused) {
     base_error error;
     static view_settings settings;
     memset(&settings, 0, sizeof settings);
-    if (!scene_load("builtin:ball", NULL, &world, &error))
+    if (!world.name && !scene_load("builtin:ball", NULL, &world, &error))
         return -1;
     strcpy(settings.scene, "builtin:ball");
     settings.width = 640;
@@ -33,8 +34,9 @@ static int open_state(void **unused) {
     settings.shading[0] = settings.shading[1] =
         (view_shading) { METHOD_ZONAL, 10, LMP_WINDOW_NONE };
     settings.camera = (scene_camera) { .eye = { 0, 0, 10 }, .up = { 0, 1, 0 }, .fov = 1 };
-    tree = view_tree_begin(&world, &error);
-    if (!tree || !view_state_open(&world, tree, &settings, NULL, &state, &error))
+    tree = tree ? tree : view_tree_begin(&world, &error);
+    if (!tree || !view_tree_wait(tree) ||
+        !view_state_open(&world, tree, &settings, NULL, &state, &error))
         return -1;
     for (int k = 0; k < 3; k++)
         state.now.camera.target[k] = 0.5f * (world.minimum[k] + world.maximum[k]);
@@ -44,8 +46,6 @@ static int open_state(void **unused) {
 static int close_state(void **unused) {
     (void)unused;
     view_state_close(&state);
-    view_tree_end(tree);
-    scene_free(&world);
     return 0;
 }
 

@@ -17,7 +17,9 @@ static const view_options options = { .fps = 30 };
 /* Opens a viewer of a scene that is open. */
 static void begin(void) {
     static view_settings drawn;
-    v = (viewer) { .options = &options, .state = state, .drawn = &drawn };
+    static view_ball ball; /* of the last test: another is drawn where another is needed */
+    ball = v.sidebar.ball;
+    v = (viewer) { .options = &options, .state = state, .drawn = &drawn, .sidebar.ball = ball };
     v.state.now.width = WIDTH;
     v.state.now.height = HEIGHT;
     v.state.now.light_count = 2;
