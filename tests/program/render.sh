@@ -7,12 +7,11 @@ export LAMPION_GL_DEBUG=fatal
 export ASAN_OPTIONS=detect_leaks=0
 small="--size 64x36 --bands 4"
 
-# The same command must give the same bytes; the methods must give the same image.
+# The same command must give the same bytes.
 "$PROGRAM" render builtin:balls $small -o "$WORK/a.png"
 "$PROGRAM" render builtin:balls $small -o "$WORK/b.png"
 cmp "$WORK/a.png" "$WORK/b.png" || fail "two runs differ"
 for method in zonal coefficients; do
-    "$PROGRAM" render builtin:balls $small --method $method -o "$WORK/$method.exr"
     "$PROGRAM" render builtin:balls --size 16x9 --bands 128 --device cpu --method $method -o "$WORK/cpu-$method.exr"
 done
 # Methods differ by rounding, and by what 128 bands lack of the diffuse lobe, which zonal sums have exactly.
@@ -120,9 +119,8 @@ noted "$WORK/none.json: has no lights, so the scene is dark: add some to its \"l
 "$PROGRAM" info --lights builtin:balls >"$WORK/each" || fail "info --lights"
 [ "$(wc -l <"$WORK/each")" = "$("$PROGRAM" info builtin:balls | awk '$1 == "lights" { print $2 + 0 }')" ] || fail "not a line per light"
 { echo '{ "lights": ['; sed '$!s/$/,/' "$WORK/each"; echo '] }'; } >"$WORK/each.json"
-"$PROGRAM" render builtin:balls $small -o "$WORK/own.exr"
 "$PROGRAM" render builtin:balls $small --lights "$WORK/each.json" -o "$WORK/each.exr"
-cmp "$WORK/own.exr" "$WORK/each.exr" || fail "info --lights gives other lights"
+cmp "$WORK/parting.exr" "$WORK/each.exr" || fail "info --lights gives other lights"
 
 # Names of frames that FILE does not determine are printed; those that it does are not.
 "$PROGRAM" render builtin:ball $small --frames 2-3 -o "$WORK/turn.exr" 2>"$WORK/err"

@@ -106,7 +106,15 @@ static lmp_rgb gray_ramp(lmp_vec3 direction, void *user) {
     return (lmp_rgb) { gray, gray, gray };
 }
 
-static void shade_all_ways(void) {
+/* Shades one surface by lmp_shade, or many by lmp_shade_n. */
+static void shade(bool one, const lmp_light *by, size_t count) {
+    if (one)
+        (void)lmp_shade(&settings, &material, &surface, by, count);
+    else
+        lmp_shade_n(&settings, &surfaces, COUNT, by, count, (lmp_rgb_array) { rgb, 0 });
+}
+
+static void shade_all_ways(bool one) {
     const lmp_brdf_table *white[LMP_SHEEN_TABLES];
     for (int i = 0; i < LMP_SHEEN_TABLES; i++)
         white[i] = table;
@@ -124,17 +132,15 @@ static void shade_all_ways(void) {
                                         .coat = { 1, 0.5f },
                                         .table = table,
                                         .preintegrated = preintegrated };
-            (void)lmp_shade(&settings, &material, &surface, lights, LIGHTS);
-            lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, (lmp_rgb_array) { rgb, 0 });
+            shade(one, lights, LIGHTS);
             if (kind == LMP_MATERIAL_PREINTEGRATED ||
                 (kind == LMP_MATERIAL_TABLE && method == LMP_SHADE_PREINTEGRATED))
                 continue; /* areas do not shine on them */
-            (void)lmp_shade(&settings, &material, &surface, &area, 1);
-            lmp_shade_n(&settings, &surfaces, COUNT, &area, 1, (lmp_rgb_array) { rgb, 0 });
-            if (method == LMP_SHADE_COEFFICIENTS)
+            shade(one, &area, 1);
+            if (one || method == LMP_SHADE_COEFFICIENTS)
                 continue; /* all areas are projected alike, and slowly */
-            lmp_shade_n(&settings, &surfaces, COUNT, &panel, 1, (lmp_rgb_array) { rgb, 0 });
-            lmp_shade_n(&settings, &surfaces, COUNT, &disk, 1, (lmp_rgb_array) { rgb, 0 });
+            shade(one, &panel, 1);
+            shade(one, &disk, 1);
         }
 }
 
@@ -285,8 +291,8 @@ static void shade_under_a_field(void) {
     X(lmp_preintegrated_brdf_write, lmp_preintegrated_brdf_write(preintegrated, lmp_preintegrated_brdf_size(preintegrated), bytes)) \
     X(lmp_preintegrated_brdf_read, MAKE(lmp_preintegrated_brdf_destroy, read_preintegrated, lmp_preintegrated_brdf_read(NULL, bytes, lmp_preintegrated_brdf_size(preintegrated), NULL, &read_preintegrated))) \
     X(lmp_preintegrated_brdf_destroy, lmp_preintegrated_brdf_destroy(read_preintegrated), read_preintegrated = NULL) \
-    X(lmp_shade, shade_all_ways()) \
-    X(lmp_shade_n, shade_all_ways()) \
+    X(lmp_shade, shade_all_ways(true)) \
+    X(lmp_shade_n, shade_all_ways(false)) \
     X(lmp_shade_environment, lmp_shade_environment(&(lmp_shade_settings) { .bands = N }, &(lmp_material) { .exponent = 20 }, &(lmp_surface) { at, up, up, up, up }, &(lmp_environment) { sh, N })) \
     X(lmp_material_dielectric, (void)lmp_material_dielectric(2, 1, (lmp_rgb) { 1, 1, 1 })) \
     X(lmp_material_coat_reflectance, (void)lmp_material_coat_reflectance(&(lmp_coat) { 1, 0.5f }, up, up)) \
