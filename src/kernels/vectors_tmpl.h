@@ -6,8 +6,8 @@
 #include "src/kernels/layout_tmpl.h"
 #include "src/kernels/sh.h"
 
-/* Rows of a matrix that are applied side by side. */
-#define ROTATE_ROWS 4
+/* The most rows of a matrix that are applied side by side: they share each value's load. */
+#define ROTATE_ROWS 8
 
 LMPI_INLINE void rotate_rows(int rows, int side, const float *matrix, const float *from,
                              size_t from_stride, float *to, size_t to_stride) {
@@ -32,9 +32,11 @@ static inline void rotate_bands(int first, int end, const float *matrices, const
         for (; row + ROTATE_ROWS <= side; row += ROTATE_ROWS)
             rotate_rows(ROTATE_ROWS, side, matrices + row * side, from, from_stride,
                         to + (size_t)row * to_stride, to_stride);
-        for (; row < side; row++)
-            rotate_rows(1, side, matrices + row * side, from, from_stride,
+        LMPI_UNROLL for (int rows = ROTATE_ROWS / 2; rows > 0; rows /= 2) if (side - row >= rows) {
+            rotate_rows(rows, side, matrices + row * side, from, from_stride,
                         to + (size_t)row * to_stride, to_stride);
+            row += rows;
+        }
         matrices += side * side;
         from += (size_t)side * from_stride;
         to += (size_t)side * to_stride;
