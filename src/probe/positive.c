@@ -59,7 +59,7 @@ static void annihilate(quadratic *f, int p, int q) {
  * least eigenvalue if n is shorter there. Where each axis alone would make n as long as 1, n is at
  * least as long as 1; from there, Newton's method for 1 / |n|, which is concave, descends to it. */
 static double find_lambda(const quadratic *f) {
-    double lambda = INFINITY;
+    double lambda = (double)INFINITY;
     for (int k = 0; k < 3; k++)
         lambda = fmin(lambda, f->a[k][k] - fabs(f->linear[k]) / 2);
     for (int step = 0; step < 60; step++) {
