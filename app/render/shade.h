@@ -3,7 +3,7 @@
 #ifndef LAMPION_RENDER_SHADE_H
 #define LAMPION_RENDER_SHADE_H
 
-#include "app/render/surfaces.h"
+#include "app/render/shade_field.h"
 
 /* Shades a frame by its method, bands, window, lights and lobes; a render_shader. */
 bool shade_frame(const render_frame *frame, const render_surfaces *surfaces, float *rgba,
@@ -13,13 +13,6 @@ bool shade_frame(const render_frame *frame, const render_surfaces *surfaces, flo
 
 /* The data that a frame's pixels are shaded with. */
 typedef struct shade_job shade_job;
-
-/* Requests the nodes of a field around all surfaces (lmp_field_want_n). Returns false if it could
- * not. */
-typedef bool shade_want(lmp_field *nodes, void *user);
-
-/* A shade_want for the surfaces of render_surfaces, `user`. */
-shade_want shade_want_surfaces;
 
 /* Begins shading with the frame's lights; if it has a field, its nodes are computed that `want`
  * requests. Returns NULL if memory ran out or `want` failed. */

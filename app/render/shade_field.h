@@ -5,7 +5,7 @@
 #define LAMPION_RENDER_SHADE_FIELD_H
 
 #include "app/base/cli.h"
-#include "app/render/shade.h"
+#include "app/render/surfaces.h"
 
 typedef struct shade_field_options {
     int grid[3]; /* nodes along x, y, z */
@@ -63,6 +63,13 @@ void shade_field_attach(shade_field *field, render_frame *frame);
  * NULL. */
 void shade_field_forget(shade_field *field);
 shade_field_statistics shade_field_describe(const shade_field *field);
+
+/* Requests the nodes of a field around all surfaces (lmp_field_want_n). Returns false if it could
+ * not. */
+typedef bool shade_want(lmp_field *nodes, void *user);
+
+/* A shade_want for the surfaces of render_surfaces, `user`. */
+shade_want shade_want_surfaces;
 
 /* --- for shade.c ------------------------------------------------------------------------------ */
 

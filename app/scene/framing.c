@@ -215,12 +215,6 @@ static float find_sky(const scene *s, const scene_grid *grid, const scene_frame 
     return scene_interior_sky(grid, frame->quarter, draws_backs(s));
 }
 
-/* Whether a scene is seen from inside. An empty shell that is drawn from outside as well is a body
- * inside out rather than a room. */
-static bool is_room(const scene *s, const scene_interior *found) {
-    return found->inside && !(found->bare && draws_backs(s));
-}
-
 static scene_frame find_frame(const scene *s, scene_framing wanted) {
     scene_frame frame = {
         .wanted = wanted, .framing = wanted, .subject = scene_subject_find(s), .sky = 1.0f
@@ -236,7 +230,7 @@ static scene_frame find_frame(const scene *s, scene_framing wanted) {
     if (s->camera_count == 0 || wanted == SCENE_FRAMING_OUTSIDE)
         frame.sky = find_sky(s, grid, &frame);
     frame.own = s->camera_count > 0 && scene_interior_closes(grid, vec_load(s->cameras->eye));
-    if (wanted == SCENE_FRAMING_AUTO && (s->camera_count > 0 ? frame.own : is_room(s, &found)))
+    if (wanted == SCENE_FRAMING_AUTO && (s->camera_count > 0 ? frame.own : found.inside))
         frame.framing = SCENE_FRAMING_INSIDE;
     scene_grid_destroy(grid);
     return frame;

@@ -96,29 +96,6 @@ scene_grid *scene_grid_create(const scene *s) {
     return g;
 }
 
-/* Counts the runs of filled cells along an axis, from a cell of the two others on. */
-static int count_runs(const scene_grid *g, int axis, int a, int b) {
-    int runs = 0;
-    bool before = false;
-    for (int i = 0; i < GRID_CELLS; i++) {
-        int cell[3];
-        cell[axis] = i;
-        cell[(axis + 1) % 3] = a;
-        cell[(axis + 2) % 3] = b;
-        const bool now = is_filled(g, cell_at(cell));
-        runs += now && !before;
-        before = now;
-    }
-    return runs;
-}
-
-bool scene_grid_is_convex_shell(const scene_grid *g) {
-    for (int i = 0; i < 3 * GRID_CELLS * GRID_CELLS; i++)
-        if (count_runs(g, i % 3, i / 3 % GRID_CELLS, i / 3 / GRID_CELLS) > 2)
-            return false;
-    return true;
-}
-
 void scene_grid_destroy(scene_grid *g) {
     free(g);
 }

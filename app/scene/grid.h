@@ -21,9 +21,6 @@ typedef struct scene_grid {
 scene_grid *scene_grid_create(const scene *scene);
 void scene_grid_destroy(scene_grid *grid);
 
-/* Whether no line along an axis meets more than two surfaces, as none does in an empty room. */
-bool scene_grid_is_convex_shell(const scene_grid *grid);
-
 typedef enum grid_hit { GRID_NOTHING, GRID_FRONT, GRID_BACK } grid_hit;
 
 /* Whether the cell of the point is empty. */

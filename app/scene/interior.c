@@ -258,12 +258,6 @@ static void find_middle(const scene_grid *g, scene_interior *found, lmp_vec3 *po
     }
 }
 
-/* Whether nothing but fronts is seen from a point. */
-static bool is_shell(const scene_grid *g, lmp_vec3 point) {
-    const look around = look_from(g, point);
-    return around.above >= 1.0f && around.below >= 1.0f && widest_opening(g, point) <= 0.0f;
-}
-
 scene_interior scene_interior_find(const scene_grid *g) {
     scene_interior found = { .inside = false };
     lmp_vec3 points[LATTICE * LATTICE * LEVELS];
@@ -277,6 +271,5 @@ scene_interior scene_interior_find(const scene_grid *g) {
         found.inside = found.within >= FURNISHED &&
                        (float)found.points >= SPACIOUS * LATTICE * LATTICE * LEVELS;
     }
-    found.bare = found.inside && is_shell(g, found.middle) && scene_grid_is_convex_shell(g);
     return found;
 }

@@ -9,7 +9,6 @@
 /* What scene_interior_find finds out. */
 typedef struct scene_interior {
     bool inside;     /* whether the scene is to be seen from inside */
-    bool bare;       /* whether it is nothing but a closed convex shell */
     lmp_vec3 middle; /* of the room or, without one, a point in empty space */
     int points;      /* points of a lattice that have a room around them */
     int level;       /* those of them that stand above level ground */

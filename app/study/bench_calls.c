@@ -86,9 +86,9 @@ static void run_make_rotation(const bench_batch *b) {
     }
 }
 static void run_rotate_by_matrix(const bench_batch *b) {
-    static const float turn[9] = { 0, -1, 0, 0.6f, 0, -0.8f, 0.8f, 0, 0.6f };
+    static const float rotation[9] = { 0, -1, 0, 0.6f, 0, -0.8f, 0.8f, 0, 0.6f };
     for (size_t i = 0; i < b->count; i++)
-        lmp_sh_rotate_by_matrix(b->bands, turn, vector_of(b, i), out_of(b, i));
+        lmp_sh_rotate_by_matrix(b->bands, rotation, vector_of(b, i), out_of(b, i));
 }
 /* Fits as many samples as there are directions, at least twice as many as coefficients. */
 static void run_fit(const bench_batch *b) {
