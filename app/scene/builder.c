@@ -133,7 +133,7 @@ uint32_t builder_node(scene_builder *builder, const char *name, uint32_t parent)
     scene_clean_name(clean, name);
     const size_t size = clean[0] ? strlen(clean) + 1 : 0;
     const uint32_t at = (uint32_t)builder_count(builder, BLOB_NAMES);
-    char *to = builder_append(builder, BLOB_NAMES, size);
+    char *to = size > 0 ? builder_append(builder, BLOB_NAMES, size) : NULL;
     if (to)
         memcpy(to, clean, size);
     builder->has_tree = true;
