@@ -174,8 +174,9 @@ static void light_square(const cpu_view *view, int x, int y, int width, int heig
     see_lights(view, x, y, &rays, hits, s);
 }
 
-void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels,
-                   const render_surfaces *first, const render_surfaces *s) {
+/* Fills a rectangle; `found`: from the hits that the planes keep. */
+static void fill(const cpu_view *view, const render_rectangle *pixels, const render_surfaces *first,
+                 bool found, const render_surfaces *s) {
     const cpu_first before = { first, render_nearness_of(&s->camera) };
     cpu_triangle triangle = { .material = NULL };
     for (int j = 0; j < pixels->height; j += SIDE)
@@ -184,11 +185,24 @@ void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels,
             trace_rays rays;
             trace_hit hits[TRACE_LANES];
             set_rays(s, x, y, pixels->width - i, pixels->height - j, &rays);
-            trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
+            if (found)
+                load_hits(x, y, &rays, s, hits);
+            else
+                trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
             if (s->weight)
                 look_through(view, x, y, rays, hits, s);
             fill_square(view, x, y, &rays, hits, first ? &before : NULL, &triangle, s);
         }
+}
+
+void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels,
+                   const render_surfaces *first, const render_surfaces *s) {
+    fill(view, pixels, first, false, s);
+}
+
+void cpu_rays_fill_found(const cpu_view *view, const render_rectangle *pixels,
+                         const render_surfaces *s) {
+    fill(view, pixels, NULL, true, s);
 }
 
 /* Keeps the hits of a square, and appends their positions to those of the tile. */
@@ -222,19 +236,6 @@ size_t cpu_rays_find(const cpu_view *view, const render_rectangle *pixels, const
             find_square(view, pixels->x + i, pixels->y + j, &rays, &triangle, s, tile, &count);
         }
     return count;
-}
-
-void cpu_rays_fill_found(const cpu_view *view, const render_rectangle *pixels,
-                         const render_surfaces *s) {
-    cpu_triangle triangle = { .material = NULL };
-    for (int j = 0; j < pixels->height; j += SIDE)
-        for (int i = 0; i < pixels->width; i += SIDE) {
-            trace_rays rays;
-            trace_hit hits[TRACE_LANES];
-            set_rays(s, pixels->x + i, pixels->y + j, pixels->width - i, pixels->height - j, &rays);
-            load_hits(pixels->x + i, pixels->y + j, &rays, s, hits);
-            fill_square(view, pixels->x + i, pixels->y + j, &rays, hits, NULL, &triangle, s);
-        }
 }
 
 void cpu_rays_light(const cpu_view *view, const render_rectangle *pixels,

@@ -235,11 +235,14 @@ static void set_weights(const trace_hit *hit, float weights[3]) {
     weights[2] = hit->v;
 }
 
+static lmp_vec3 position_at(const scene_vertex corners[3], const float weights[3]) {
+    return mix(corners[0].position, corners[1].position, corners[2].position, weights);
+}
+
 lmp_vec3 cpu_surface_position(const cpu_triangle *t, const trace_hit *hit) {
-    const scene_vertex *v = t->corners;
     float weights[3];
     set_weights(hit, weights);
-    return mix(v[0].position, v[1].position, v[2].position, weights);
+    return position_at(t->corners, weights);
 }
 
 /* Finds the hit point's weights, normal and side, which do not depend on the material. */
@@ -289,7 +292,7 @@ void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const
     p.corners = t->corners;
     p.covered = NULL;
     place(t, d, hit, &p);
-    const lmp_vec3 position = cpu_surface_position(t, hit);
+    const lmp_vec3 position = position_at(t->corners, p.weights);
     set_vector(s->position, at, position);
     if (s->translucent)
         set_vector(s->transmitted, at, vec(0, 0, 0));

@@ -155,7 +155,7 @@ static void add_later(float exposure, const render_rectangle *pixels, tile_work 
 }
 
 static trace_hit *hits_of(const cpu_tiles *kept, int number) {
-    return kept->hits ? kept->hits + (size_t)number * RENDER_TILE_PIXELS : NULL;
+    return kept->hits + (size_t)number * RENDER_TILE_PIXELS;
 }
 
 static void draw_alone(const tiles_job *job, int number, tile_work *w) {

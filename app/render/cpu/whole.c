@@ -87,10 +87,11 @@ static void resolve(cpu_whole *w, const cpu_drawing *d, int index, bool keep, bo
     for (ptrdiff_t i = 0; i < count; i++) {
         const float *rgba = w->rgba + 4 * i;
         float *sum = w->sums + 4 * i;
-        if (index == 0 && keep)
-            memset(sum, 0, 4 * sizeof *sum);
-        if (keep)
+        if (keep) {
+            if (index == 0)
+                memset(sum, 0, 4 * sizeof *sum);
             cpu_add_sample(d->exposure, rgba, cpu_blended(s, (size_t)i), sum);
+        }
         if (show)
             cpu_set_pixel(d->samples, rgba, sum, d->image->rgb + 3 * i);
     }
