@@ -37,12 +37,8 @@ LMPI_INLINE void straight_irradiance(int bands, const float *sh, lmp_vec3 normal
     LMPI_UNROLL for (int m = 0; m < bands; m++) {
         float before = 0, q = lmpi_table_diagonal[m], cosine[3] = { 0 }, sine[3] = { 0 };
         LMPI_UNROLL for (int l = m; l < bands; l++) {
-            if (l > m) {
-                const size_t i = lmpi_table_index(l, m);
-                const float next = lmpi_table_a[i] * normal.z * q + lmpi_table_b[i] * before;
-                before = q;
-                q = next;
-            }
+            if (l > m)
+                lmpi_sh_step(l, m, normal.z, &before, &q);
             if (few_lambda[l] == 0)
                 continue;
             const float value = q * few_lambda[l];

@@ -20,6 +20,15 @@ static inline lmpi_azimuth lmpi_azimuth_next(lmpi_azimuth a, lmp_vec3 direction)
                             direction.x * a.s + direction.y * a.c };
 }
 
+/* Steps along column m: q becomes q_l^m(z) from that of l - 1, with the one before it; the first of
+ * the column, lmpi_table_diagonal[m], has 0 before it. */
+LMPI_INLINE void lmpi_sh_step(int l, int m, float z, float *before, float *q) {
+    const size_t i = lmpi_table_index(l, m);
+    const float next = lmpi_table_a[i] * z * *q + lmpi_table_b[i] * *before;
+    *before = *q;
+    *q = next;
+}
+
 /* Computes q[l] = q_l^m(z) for l = m … bands-1; Y_l,±m = q_l^m {C_m, S_m}. */
 static inline void lmpi_sh_column(int bands, int m, float z, float *q) {
     const float *a = lmpi_table_a + lmpi_table_index(m, m);
@@ -46,12 +55,8 @@ LMPI_INLINE void lmpi_sh_put(int bands, lmp_vec3 direction, const float *radial,
     LMPI_UNROLL for (int m = 0; m < bands; m++) {
         float before = 0, q = lmpi_table_diagonal[m];
         LMPI_UNROLL for (int l = m; l < bands; l++) {
-            if (l > m) {
-                const size_t i = lmpi_table_index(l, m);
-                const float next = lmpi_table_a[i] * direction.z * q + lmpi_table_b[i] * before;
-                before = q;
-                q = next;
-            }
+            if (l > m)
+                lmpi_sh_step(l, m, direction.z, &before, &q);
             const float scaled = radial ? q * radial[l] : q;
             const float sine = scaled * a.s, cosine = scaled * a.c;
             /* -m first: at m = 0 both are one coefficient, and cosine wins */
