@@ -111,16 +111,6 @@ static void run_function(const bench_batch *b) {
 
 enum { SLOTS_COSINE = 20 }; /* about what a cosine takes of the C library */
 
-static size_t values_basis(int n) {
-    return LMP_SH_COUNT(n);
-}
-static size_t values_bands(int n) {
-    return (size_t)n;
-}
-static size_t values_color(int n) {
-    (void)n;
-    return 3;
-}
 static size_t values_constants(int n) {
     (void)n;
     return sizeof(lmp_probe_constants) / sizeof(float);
@@ -194,37 +184,28 @@ static double slots_function(int n) {
 
 /* --- the table -------------------------------------------------------------------------------- */
 
+/* The paper has no formula for any. */
+#define CALL(name, values, slots, run, most)                                                       \
+    {                                                                                              \
+        name, values, slots, run, NULL, .lights = 1, .one_layout = true, .call = true,             \
+                                        .bands_max = most                                          \
+    }
+
 const bench_kernel bench_calls[BENCH_CALLS] = {
-    { "irradiance-call", values_color, bench_slots_irradiance, run_irradiance, NULL, .lights = 1,
-      .one_layout = true, .call = true },
-    { "constants", values_constants, slots_constants, run_constants, NULL, .lights = 1,
-      .one_layout = true, .call = true, .bands_max = 3 },
-    { "reconstruct", values_color, slots_reconstruct, run_reconstruct, NULL, .lights = 1,
-      .one_layout = true, .call = true },
-    { "expand-zonal", values_basis, slots_expand_zonal, run_expand_zonal, NULL, .lights = 1,
-      .one_layout = true, .call = true },
-    { "make-phong", values_bands, slots_make_phong, run_make_phong, NULL, .lights = 1,
-      .one_layout = true, .call = true },
-    { "find-ggx", values_ggx, slots_find_ggx, run_find_ggx, NULL, .lights = 1, .one_layout = true,
-      .call = true, .bands_max = 3 },
-    { "make-window", values_bands, slots_make_window, run_make_window, NULL, .lights = 1,
-      .one_layout = true, .call = true },
-    { "laplacian-window", values_basis, slots_laplacian_window, run_laplacian_window, NULL,
-      .lights = 1, .one_layout = true, .call = true },
-    { "positive-window", values_basis, slots_positive_window, run_positive_window, NULL,
-      .lights = 1, .one_layout = true, .call = true, .bands_max = 10 },
-    { "apply-window", values_basis, squared, run_apply_window, NULL, .lights = 1,
-      .one_layout = true, .call = true },
-    { "convert", values_basis, slots_convert, run_convert, NULL, .lights = 1, .one_layout = true,
-      .call = true, .bands_max = LMP_PROBE_AXES_BANDS_MAX },
-    { "export", values_constants, slots_export, run_export, NULL, .lights = 1, .one_layout = true,
-      .call = true, .bands_max = 3 },
-    { "make-rotation", values_rotation, slots_make_rotation, run_make_rotation, NULL, .lights = 1,
-      .one_layout = true, .call = true },
-    { "rotate-by-matrix", values_basis, bench_slots_rotate, run_rotate_by_matrix, NULL, .lights = 1,
-      .one_layout = true, .call = true },
-    { "fit", values_basis, slots_fit, run_fit, NULL, .lights = 1, .one_layout = true, .call = true,
-      .bands_max = 10 },
-    { "function", values_basis, slots_function, run_function, NULL, .lights = 1, .one_layout = true,
-      .call = true, .bands_max = 50 },
+    CALL("irradiance-call", bench_values_color, bench_slots_irradiance, run_irradiance, 0),
+    CALL("constants", values_constants, slots_constants, run_constants, 3),
+    CALL("reconstruct", bench_values_color, slots_reconstruct, run_reconstruct, 0),
+    CALL("expand-zonal", bench_values_basis, slots_expand_zonal, run_expand_zonal, 0),
+    CALL("make-phong", bench_values_bands, slots_make_phong, run_make_phong, 0),
+    CALL("find-ggx", values_ggx, slots_find_ggx, run_find_ggx, 3),
+    CALL("make-window", bench_values_bands, slots_make_window, run_make_window, 0),
+    CALL("laplacian-window", bench_values_basis, slots_laplacian_window, run_laplacian_window, 0),
+    CALL("positive-window", bench_values_basis, slots_positive_window, run_positive_window, 10),
+    CALL("apply-window", bench_values_basis, squared, run_apply_window, 0),
+    CALL("convert", bench_values_basis, slots_convert, run_convert, LMP_PROBE_AXES_BANDS_MAX),
+    CALL("export", values_constants, slots_export, run_export, 3),
+    CALL("make-rotation", values_rotation, slots_make_rotation, run_make_rotation, 0),
+    CALL("rotate-by-matrix", bench_values_basis, bench_slots_rotate, run_rotate_by_matrix, 0),
+    CALL("fit", bench_values_basis, slots_fit, run_fit, 10),
+    CALL("function", bench_values_basis, slots_function, run_function, 50),
 };

@@ -156,24 +156,14 @@ static void run_shade_field(const bench_batch *b) {
 
 /* --- operations that src/kernels asks for; none are fused ------------------------------------- */
 
-static size_t values_basis(int n) {
-    return LMP_SH_COUNT(n);
-}
 static size_t values_basis_gradient(int n) {
     return 4 * LMP_SH_COUNT(n);
-}
-static size_t values_zonal(int n) {
-    return (size_t)n;
 }
 static size_t values_rgb(int n) {
     return 3 * LMP_SH_COUNT(n);
 }
 static size_t values_gradient(int n) {
     return 12 * LMP_SH_COUNT(n);
-}
-static size_t values_lobe(int n) {
-    (void)n;
-    return 3;
 }
 
 static double slots_basis_gradient(int n) {
@@ -291,7 +281,7 @@ static double slots_shade_field(int n) {
 /* --- the table -------------------------------------------------------------------------------- */
 
 const bench_kernel bench_kernels[BENCH_KERNELS] = {
-    { "project", values_basis, slots_project, run_project, bench_paper_project, .lights = 1,
+    { "project", bench_values_basis, slots_project, run_project, bench_paper_project, .lights = 1,
       .large = true },
     { "accumulate", values_rgb, slots_accumulate, run_accumulate, bench_paper_accumulate,
       .lights = BENCH_LIGHTS },
@@ -299,63 +289,64 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
       .lights = BENCH_LIGHTS },
     { "gradient", values_gradient, slots_gradient, run_gradient, bench_paper_gradient,
       .lights = BENCH_LIGHTS },
-    { "one-light", values_basis, slots_project, run_one_light, bench_paper_project, .lights = 1,
-      .one_layout = true },
+    { "one-light", bench_values_basis, slots_project, run_one_light, bench_paper_project,
+      .lights = 1, .one_layout = true },
     { "one-point", values_rgb, slots_accumulate, run_one_point, bench_paper_accumulate,
       .lights = BENCH_LIGHTS, .one_layout = true },
     { "one-point-8-lights", values_rgb, slots_accumulate, run_one_point_few,
       bench_paper_accumulate_few, .lights = BENCH_LIGHTS_FEW, .one_layout = true },
-    { "lobe", values_lobe, slots_lobe, run_lobe, bench_paper_lobe, .lights = BENCH_LIGHTS,
+    { "lobe", bench_values_color, slots_lobe, run_lobe, bench_paper_lobe, .lights = BENCH_LIGHTS,
       .one_layout = true },
-    { "zonal", values_zonal, slots_zonal, run_zonal, bench_paper_zonal, .lights = 1 },
-    { "basis", values_basis, bench_slots_basis, run_basis, bench_paper_basis, .lights = 1,
+    { "zonal", bench_values_bands, slots_zonal, run_zonal, bench_paper_zonal, .lights = 1 },
+    { "basis", bench_values_basis, bench_slots_basis, run_basis, bench_paper_basis, .lights = 1,
       .large = true },
     { "basis-gradient", values_basis_gradient, slots_basis_gradient, run_basis_gradient,
       bench_paper_basis_gradient, .lights = 1 },
-    { "irradiance", values_lobe, bench_slots_irradiance, run_irradiance, bench_paper_irradiance,
-      .lights = 1, .one_layout = true },
-    { "cubemap", values_lobe, slots_image, run_cubemap, bench_paper_cubemap,
+    { "irradiance", bench_values_color, bench_slots_irradiance, run_irradiance,
+      bench_paper_irradiance, .lights = 1, .one_layout = true },
+    { "cubemap", bench_values_color, slots_image, run_cubemap, bench_paper_cubemap,
       .lights = 6 * BENCH_CUBE * BENCH_CUBE / BENCH_ELEMENTS_MAX, .one_layout = true },
-    { "panorama", values_lobe, slots_image, run_panorama, bench_paper_panorama,
+    { "panorama", bench_values_color, slots_image, run_panorama, bench_paper_panorama,
       .lights = BENCH_PANORAMA_WIDTH * BENCH_PANORAMA_HEIGHT / BENCH_ELEMENTS_MAX,
       .one_layout = true },
-    { "product", values_basis, slots_product, run_product, bench_paper_product, .lights = 1,
+    { "product", bench_values_basis, slots_product, run_product, bench_paper_product, .lights = 1,
       .one_layout = true, .bands_max = LMP_SH_FEW_BANDS },
-    { "rotate-z", values_basis, slots_rotate_z, run_rotate_z, bench_paper_rotate, .lights = 1,
+    { "rotate-z", bench_values_basis, slots_rotate_z, run_rotate_z, bench_paper_rotate, .lights = 1,
       .one_layout = true },
-    { "rotate", values_basis, bench_slots_rotate, run_rotate, bench_paper_rotate, .lights = 1 },
+    { "rotate", bench_values_basis, bench_slots_rotate, run_rotate, bench_paper_rotate,
+      .lights = 1 },
     { "pack-half", values_rgb, slots_pack_half, run_pack_half, bench_paper_pack_half, .lights = 1,
       .one_layout = true },
-    { "dot", values_basis, slots_dot, run_dot, bench_paper_dot, .lights = 1 },
-    { "shade-zonal", values_lobe, slots_shade_zonal, run_shade_zonal, bench_paper_shade,
+    { "dot", bench_values_basis, slots_dot, run_dot, bench_paper_dot, .lights = 1 },
+    { "shade-zonal", bench_values_color, slots_shade_zonal, run_shade_zonal, bench_paper_shade,
       .lights = BENCH_LIGHTS, .one_layout = true },
-    { "shade-rectangle", values_lobe, slots_shade_rectangle, run_shade_rectangle, NULL,
+    { "shade-rectangle", bench_values_color, slots_shade_rectangle, run_shade_rectangle, NULL,
       .lights = BENCH_LIGHTS, .one_layout = true },
-    { "shade-rectangle-small", values_lobe, slots_shade_points, run_shade_rectangle_small, NULL,
+    { "shade-rectangle-small", bench_values_color, slots_shade_points, run_shade_rectangle_small,
+      NULL, .lights = BENCH_LIGHTS, .one_layout = true },
+    { "shade-rectangle-cut", bench_values_color, slots_shade_cut, run_shade_rectangle_cut, NULL,
       .lights = BENCH_LIGHTS, .one_layout = true },
-    { "shade-rectangle-cut", values_lobe, slots_shade_cut, run_shade_rectangle_cut, NULL,
+    { "shade-disk", bench_values_color, slots_shade_disk, run_shade_disk, NULL,
       .lights = BENCH_LIGHTS, .one_layout = true },
-    { "shade-disk", values_lobe, slots_shade_disk, run_shade_disk, NULL, .lights = BENCH_LIGHTS,
-      .one_layout = true },
-    { "shade-tube", values_lobe, slots_shade_tube, run_shade_tube, NULL, .lights = BENCH_LIGHTS,
-      .one_layout = true },
-    { "shade-tube-small", values_lobe, slots_shade_tube, run_shade_tube_small, NULL,
+    { "shade-tube", bench_values_color, slots_shade_tube, run_shade_tube, NULL,
       .lights = BENCH_LIGHTS, .one_layout = true },
-    { "shade-preintegrated", values_lobe, slots_shade_lobe, run_shade_preintegrated,
+    { "shade-tube-small", bench_values_color, slots_shade_tube, run_shade_tube_small, NULL,
+      .lights = BENCH_LIGHTS, .one_layout = true },
+    { "shade-preintegrated", bench_values_color, slots_shade_lobe, run_shade_preintegrated,
       bench_paper_shade, .lights = BENCH_LIGHTS, .one_layout = true, .table = BENCH_TABLE_LOBES },
-    { "shade-brdf", values_lobe, slots_shade_brdf, run_shade_preintegrated, bench_paper_shade,
-      .lights = BENCH_LIGHTS, .one_layout = true, .table = BENCH_TABLE_BRDF },
-    { "shade-ggx", values_lobe, slots_shade_ggx, run_shade_zonal, bench_paper_shade,
+    { "shade-brdf", bench_values_color, slots_shade_brdf, run_shade_preintegrated,
+      bench_paper_shade, .lights = BENCH_LIGHTS, .one_layout = true, .table = BENCH_TABLE_BRDF },
+    { "shade-ggx", bench_values_color, slots_shade_ggx, run_shade_zonal, bench_paper_shade,
       .lights = BENCH_LIGHTS, .one_layout = true, .ggx = true },
-    { "shade-environment", values_lobe, slots_shade_environment, run_shade_environment,
+    { "shade-environment", bench_values_color, slots_shade_environment, run_shade_environment,
       bench_paper_shade_environment, .lights = 1, .one_layout = true, .ggx = true },
-    { "shade-ggx-preintegrated", values_lobe, slots_shade_ggx_lobe, run_shade_preintegrated,
+    { "shade-ggx-preintegrated", bench_values_color, slots_shade_ggx_lobe, run_shade_preintegrated,
       bench_paper_shade, .lights = BENCH_LIGHTS, .one_layout = true, .table = BENCH_TABLE_LOBES,
       .ggx = true },
-    { "field-update", values_lobe, slots_field_update, run_field_update, bench_paper_field_update,
-      .lights = BENCH_FIELD_NODES / BENCH_ELEMENTS_MAX * BENCH_LIGHTS, .one_layout = true,
-      .table = BENCH_TABLE_FIELD, .bands_max = LMP_FIELD_BANDS_MAX },
-    { "shade-field", values_lobe, slots_shade_field, run_shade_field, bench_paper_shade,
+    { "field-update", bench_values_color, slots_field_update, run_field_update,
+      bench_paper_field_update, .lights = BENCH_FIELD_NODES / BENCH_ELEMENTS_MAX * BENCH_LIGHTS,
+      .one_layout = true, .table = BENCH_TABLE_FIELD, .bands_max = LMP_FIELD_BANDS_MAX },
+    { "shade-field", bench_values_color, slots_shade_field, run_shade_field, bench_paper_shade,
       .lights = 1, .one_layout = true, .table = BENCH_TABLE_FIELD,
       .bands_max = LMP_FIELD_BANDS_MAX },
 };

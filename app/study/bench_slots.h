@@ -1,7 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* bench_slots.h - operations that kernels and calls share: mul, add, div and sqrt, none fused. */
+/* bench_slots.h - what kernels and calls share: the values of an element, and the operations that
+ * it asks for, mul, add, div and sqrt, none fused. */
 #ifndef LAMPION_STUDY_BENCH_SLOTS_H
 #define LAMPION_STUDY_BENCH_SLOTS_H
+
+#include <lampion/sh.h>
+
+static inline size_t bench_values_basis(int n) {
+    return LMP_SH_COUNT(n);
+}
+static inline size_t bench_values_bands(int n) {
+    return (size_t)n;
+}
+static inline size_t bench_values_color(int n) {
+    (void)n;
+    return 3;
+}
 
 /* Count bands past the second; entries (l, m) with m >= 0; and steps of their recurrences. */
 static inline double bench_later(int n) {

@@ -16,7 +16,7 @@ enum { HELD = 5 }; /* planes that are kept: what is seen, emission, weights */
 typedef struct tiles_job {
     const cpu_drawing *drawing;
     bool by_field;    /* whether the only sample reads a field */
-    lmp_field *nodes; /* of the field, while they are requested */
+    lmp_field *nodes; /* the field's, while they are requested */
     shade_job *shade;
     const render_camera *cameras;  /* of the samples */
     const render_tiled_pass *pass; /* or NULL */

@@ -17,7 +17,7 @@ typedef struct cpu_tiles {
     float *first_rgba;  /* radiance of the first sample */
     float *held, *rgba; /* of the sample looked at: seen, emission and weights; radiance */
     float *sums;        /* weighted radiances so far, and weights */
-    trace_hit *hits;    /* of the only sample, of a field */
+    trace_hit *hits;    /* what the only sample sees, for a field */
     int hit_count;      /* of tiles */
 } cpu_tiles;
 
