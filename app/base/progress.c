@@ -87,7 +87,8 @@ void progress_follow(progress_watch *watch) {
     atomic_store(&follower, watch);
 }
 
-bool progress_cancelled(void) {
+bool progress_cancelled(void *unused) {
+    (void)unused;
     progress_watch *const watch = atomic_load(&follower);
     return watch && atomic_load(&watch->cancelled);
 }

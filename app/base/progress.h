@@ -20,7 +20,7 @@ typedef struct progress_watch {
 /* Lets `watch`, or NULL: nobody, follow the work from now on. */
 void progress_follow(progress_watch *watch);
 
-/* Whether who follows the work has cancelled it. */
-bool progress_cancelled(void);
+/* Whether who follows the work has cancelled it; what a sandbox_job asks. */
+bool progress_cancelled(void *unused);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/load/assimp.h"
 
+#include "app/base/file.h"
 #include "app/scene/instance.h"
 #include "app/scene/load/assimp_library.h"
 #include "app/scene/load/assimp_material.h"
@@ -87,9 +88,9 @@ static void flush_file(struct aiFile *file) {
 /* Whether a file has the scene's own base name, as "knight.skin" for "knight.md3": Assimp looks for
  * such files whether or not the scene refers to them. */
 static bool is_probed(const assimp_job *job, const char *path) {
-    const char *dot = strrchr(job->name, '.'), *slash = strrchr(path, '/');
+    const char *dot = strrchr(job->name, '.');
     const size_t length = dot ? (size_t)(dot - job->name) : strlen(job->name);
-    return strncmp(slash ? slash + 1 : path, job->name, length) == 0;
+    return strncmp(file_base_name(path), job->name, length) == 0;
 }
 
 /* Finds another file that Assimp asks for. One that cannot be read is noted, unless Assimp only
@@ -384,8 +385,7 @@ static bool has_z_up(const char *name) {
 
 bool assimp_add(const void *data, size_t size, source_set *sources, scene_builder *builder,
                 base_error *error) {
-    const char *slash = strrchr(sources->subject, '/');
-    assimp_job job = { .name = slash ? slash + 1 : sources->subject,
+    assimp_job job = { .name = file_base_name(sources->subject),
                        .data = data,
                        .size = size,
                        .sources = sources,

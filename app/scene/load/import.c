@@ -255,11 +255,6 @@ static void show_progress(void *context, double done) {
     progress_show("reading", done);
 }
 
-static bool is_cancelled(void *context) {
-    (void)context;
-    return progress_cancelled();
-}
-
 static bool import_fresh(import_job *job, void **block, size_t *size, base_error *error) {
     const sandbox_job work = { .subject = job->path,
                                .input_bytes = job->size,
@@ -267,7 +262,7 @@ static bool import_fresh(import_job *job, void **block, size_t *size, base_error
                                .work = import_in_child,
                                .open = open_source,
                                .progress = show_progress,
-                               .cancelled = is_cancelled };
+                               .cancelled = progress_cancelled };
     const bool ok = sandbox_run(&work, block, size, error);
     progress_end();
     if (!ok)

@@ -106,11 +106,6 @@ static void show_progress(void *context, double done) {
     progress_show("decoding", *run->shown);
 }
 
-static bool is_cancelled(void *context) {
-    (void)context;
-    return progress_cancelled();
-}
-
 /* Divides the images among the children so that texels are balanced to within one image. */
 static size_t share_out(const scene *s, double *shown, image_run runs[CHILDREN_MAX],
                         sandbox_job jobs[CHILDREN_MAX]) {
@@ -124,7 +119,7 @@ static size_t share_out(const scene *s, double *shown, image_run runs[CHILDREN_M
                             .context = &runs[count],
                             .work = decode_run,
                             .progress = show_progress,
-                            .cancelled = is_cancelled };
+                            .cancelled = progress_cancelled };
         for (end = first; end < s->image_count &&
                           (end == first || count + 1 == most || s->images[end].first_texel < until);
              end++)
