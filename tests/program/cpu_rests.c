@@ -2,6 +2,7 @@
 /* The CPU's device keeps what a resting camera sees: frames drawn before must not change the image.
  */
 #include "app/render/renderer/renderer.h"
+#include "app/render/shade_field.h"
 
 #include "tests/oracle/check.h"
 
@@ -101,6 +102,34 @@ static void another_view_is_traced(void **state) {
     frame.height = HEIGHT / 2;
     expect_as_recomputed(f, renderer, &frame);
     renderer_destroy(renderer);
+}
+
+/* Draws by a field of its own, whose nodes are those that this frame requests. */
+static void draw_by_field(const fixture *f, render_frame frame, image *pixels) {
+    base_error error = { "" };
+    const shade_field_options options = SHADE_FIELD_DEFAULTS;
+    shade_field *field = shade_field_create(&f->world, &options, frame.bands, &error);
+    any_renderer *renderer = renderer_create(&f->device, &error);
+    assert_true(field && renderer);
+    frame.method = METHOD_FIELD;
+    shade_field_attach(field, &frame);
+    draw(renderer, &frame, pixels);
+    renderer_destroy(renderer);
+    shade_field_destroy(field);
+}
+
+/* Kept or not, what is seen has the same nodes and the same shades: tiles that are not kept request
+ * nodes by what their rays hit, and the kept image by its planes. */
+static void a_field_shades_what_is_kept_and_what_is_not(void **state) {
+    const fixture *f = *state;
+    render_frame frame = frame_of(f, f->world.lights, f->world.light_count);
+    image kept, found;
+    draw_by_field(f, frame, &kept);
+    frame.keep_geometry = false;
+    draw_by_field(f, frame, &found);
+    assert_memory_equal(kept.rgb, found.rgb, 3 * sizeof *kept.rgb * WIDTH * HEIGHT);
+    image_free(&kept);
+    image_free(&found);
 }
 
 /* Glowing balls under coats, which keep part of the glow until a table replaces both: planes that
@@ -244,6 +273,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_light_that_moves_uncovers_what_it_hid),
         cmocka_unit_test(another_view_is_traced),
+        cmocka_unit_test(a_field_shades_what_is_kept_and_what_is_not),
         cmocka_unit_test(other_materials_are_looked_at_again),
         cmocka_unit_test(the_meter_sees_lit_surface_alone),
     };

@@ -382,6 +382,11 @@ static void the_weakest_window_that_keeps_a_light_positive_is_found(void **state
                                (lmp_vec3) { 0, 0, 0 }, sh + (size_t)p * plane);
         lmp_probe_make_positive_window(bands, sh, 3, weights);
         assert_true(weights[0] == 1 && weights[bands - 1] < 1);
+        for (int l = 2; l < bands; l++) { /* all are 1 / (1 + mu l² (l+1)²), by the first mu */
+            const double square = pow((double)l * (l + 1), 2);
+            const double mu = (1 / (double)weights[1] - 1) / 4;
+            CHECK_WITHIN(fabs((double)weights[l] * (1 + mu * square) - 1), 1e-3);
+        }
         bool below = false;
         for (int p = 0; p < 3; p++) {
             const float *f = sh + (size_t)p * plane;
