@@ -67,14 +67,15 @@ LMPI_INLINE vf few_load_apart(const float *array, size_t stride, size_t i, size_
     return vf_join(quarters);
 }
 
-/* Loads elements i, i + 1, … of an array; lanes past the last element repeat it. */
-LMPI_INLINE vf few_load(const float *array, size_t stride, size_t i, size_t live) {
+/* Loads elements i, i + 1, … of an array, which is a plane or not; lanes past the last element
+ * repeat it. */
+LMPI_INLINE vf few_load(int plane, const float *array, size_t stride, size_t i, size_t live) {
     static const float LMPI_ALIGNED number[16] = { 0, 1, 2,  3,  4,  5,  6,  7,
                                                    8, 9, 10, 11, 12, 13, 14, 15 };
     /* by itself, because a register would wait for a plane's stores */
     if (live == 1)
         return vf_set(lights_at(array, stride, i));
-    if (stride != sizeof *array)
+    if (!plane)
         return few_load_apart(array, stride, i, live);
     if (live == LMPI_LANES)
         return vf_load(array + i);
@@ -87,27 +88,45 @@ LMPI_INLINE void few_hide(const lmpi_kernel_lights *lights, size_t i, size_t liv
                           cap_lanes *cap) {
     const size_t stride = lights->visibility_stride;
     const float *plane = lights->visibility + element;
-    const vf visible = few_load(plane, stride * sizeof *plane, i, live);
+    const vf visible = few_load_apart(plane, stride * sizeof *plane, i, live);
     cap->s2 = cap->s2 * visible;
     cap->t_full = cap->t_full * visible;
 }
 
-LMPI_INLINE void few_begin(int bands, const lmpi_kernel_lights *lights, size_t i, size_t live,
-                           const float point[3], size_t element, few_lanes *lanes) {
-    const lmp_vec3_array *center = &lights->center;
-    const accumulate_tile all = { 0, bands, 0, bands };
-    cap_lanes cap = cap_from(few_load(center->x, center->stride, i, live) - point[0],
-                             few_load(center->y, center->stride, i, live) - point[1],
-                             few_load(center->z, center->stride, i, live) - point[2],
-                             few_load(lights->radius.at, lights->radius.stride, i, live), 0);
+LMPI_INLINE void few_begin(int planes, const lmpi_kernel_lights *lights, size_t i, size_t live,
+                           const lmpi_kernel_vec3 *points, size_t element, few_lanes *lanes) {
+    const lmp_vec3_array *center = &lights->center, *radiance = &lights->radiance;
+    cap_lanes cap =
+        cap_from(few_load(planes, center->x, center->stride, i, live) - points->x[element],
+                 few_load(planes, center->y, center->stride, i, live) - points->y[element],
+                 few_load(planes, center->z, center->stride, i, live) - points->z[element],
+                 few_load(planes, lights->radius.at, lights->radius.stride, i, live), 0);
     if (__builtin_expect(lights->visibility != NULL, 0))
         few_hide(lights, i, live, element, &cap);
     lanes->radial[0] = accumulate_begin(cap, &lanes->light);
-    accumulate_radial(bands, all, 1, &lanes->light, lanes->radial);
-    const lmp_vec3_array *radiance = &lights->radiance;
-    lanes->rgb[0] = few_load(radiance->x, radiance->stride, i, live);
-    lanes->rgb[1] = few_load(radiance->y, radiance->stride, i, live);
-    lanes->rgb[2] = few_load(radiance->z, radiance->stride, i, live);
+    lanes->rgb[0] = few_load(planes, radiance->x, radiance->stride, i, live);
+    lanes->rgb[1] = few_load(planes, radiance->y, radiance->stride, i, live);
+    lanes->rgb[2] = few_load(planes, radiance->z, radiance->stride, i, live);
+}
+
+/* Whether all members of lights lie in planes. */
+LMPI_INLINE int few_are_planes(const lmpi_kernel_lights *lights) {
+    const size_t plane = sizeof(float);
+    return lights->center.stride == plane && lights->radius.stride == plane &&
+           lights->radiance.stride == plane;
+}
+
+/* Begins the lights from light i to `end`. Written once for all numbers of bands, because loading
+ * lights that lie apart is long code. */
+static LMPI_NOINLINE void few_begin_all(const lmpi_kernel_lights *lights, size_t i, size_t end,
+                                        const lmpi_kernel_vec3 *points, size_t element,
+                                        few_lanes *lanes) {
+    if (few_are_planes(lights))
+        LMPI_ROLLED for (; i < end; i += LMPI_LANES, lanes++)
+            few_begin(1, lights, i, layout_live(end, i), points, element, lanes);
+    else
+        LMPI_ROLLED for (; i < end; i += LMPI_LANES, lanes++)
+            few_begin(0, lights, i, layout_live(end, i), points, element, lanes);
 }
 
 /* Returns the bands of all blocks that begin with orders below `first`: a block has the bands from
@@ -229,12 +248,14 @@ LMPI_INLINE void few_blocks(int bands, int begin, int end, size_t live, few_lane
 
 /* Adds the lights from light i on, up to FEW_AHEAD registers of them. */
 LMPI_INLINE void few_lights(int bands, int straight, const lmpi_kernel_lights *lights, size_t i,
-                            const float point[3], size_t element, few_work *work) {
+                            const lmpi_kernel_vec3 *points, size_t element, few_work *work) {
     const size_t left = lights->count - i;
     const size_t end = left < FEW_AHEAD * LMPI_LANES ? left : FEW_AHEAD * LMPI_LANES;
     few_lanes *lanes = work->ahead;
+    const accumulate_tile all = { 0, bands, 0, bands };
+    few_begin_all(lights, i, i + end, points, element, lanes);
     LMPI_ROLLED for (size_t k = 0; k < end; k += LMPI_LANES, lanes++)
-        few_begin(bands, lights, i + k, layout_live(end, k), point, element, lanes);
+        accumulate_radial(bands, all, 1, &lanes->light, lanes->radial);
     lanes = work->ahead;
     LMPI_ROLLED for (size_t k = 0; k < end; k += LMPI_LANES, lanes++) {
         work->rgb = (const float *)(const void *)lanes->rgb;
@@ -291,14 +312,14 @@ LMPI_INLINE void few_put(int bands, int first, vf (*sums)[3], float *row) {
 
 /* Computes the sums of the lights at one point, which is element `element` of the output. */
 LMPI_INLINE void few_point(int bands, int straight, const lmpi_kernel_lights *lights,
-                           const float point[3], const lmpi_kernel_out *out, size_t element,
-                           few_work *work) {
+                           const lmpi_kernel_vec3 *points, const lmpi_kernel_out *out,
+                           size_t element, few_work *work) {
     const int count = few_bands(bands, bands + FEW_ORDERS - 1);
     for (int k = 0; k < count; k++)
         LMPI_UNROLL for (int c = 0; c < 3; c++) work->sums[k][c] = vf_set(0);
     few_clear_all(bands, straight ? bands : 1, work->planes);
     for (size_t i = 0; i < lights->count; i += FEW_AHEAD * LMPI_LANES)
-        few_lights(bands, straight, lights, i, point, element, work);
+        few_lights(bands, straight, lights, i, points, element, work);
     float *row = out->planar ? work->planes : out->at + element * out->stride;
     if (straight)
         LMPI_UNROLL for (int first = 0; first < bands; first += FEW_ORDERS)
@@ -311,13 +332,13 @@ LMPI_INLINE void few_point(int bands, int straight, const lmpi_kernel_lights *li
 }
 
 static LMPI_NOINLINE void accumulate_few(int bands, const lmpi_kernel_lights *lights,
-                                         const float point[3], const lmpi_kernel_out *out,
+                                         const lmpi_kernel_vec3 *points, const lmpi_kernel_out *out,
                                          size_t element) {
     few_work work;
     switch (bands) {
-        LMPI_SMALL_CASES(few_point, 1, lights, point, out, element, &work)
+        LMPI_SMALL_CASES(few_point, 1, lights, points, out, element, &work)
     default:
-        few_point(bands, 0, lights, point, out, element, &work);
+        few_point(bands, 0, lights, points, out, element, &work);
     }
 }
 
@@ -329,10 +350,8 @@ static void accumulate_points(const lmp_scratch *scratch, int bands,
         accumulate_block(scratch, bands, lights, points, out, element, live);
         return;
     }
-    for (size_t e = element; e < element + live; e++) {
-        const float point[3] = { points->x[e], points->y[e], points->z[e] };
-        accumulate_few(bands, lights, point, out, e);
-    }
+    for (size_t e = element; e < element + live; e++)
+        accumulate_few(bands, lights, points, out, e);
 }
 
 #endif

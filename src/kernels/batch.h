@@ -42,6 +42,18 @@ static inline bool lmpi_batch_is_there(size_t stride, size_t count) {
     return stride == sizeof(float) && count % LMPI_KERNEL_LANES_MAX == 0;
 }
 
+/* Sets the lanes of a plane past the last of `count` to 0: by sizes that compilers know, because a
+ * call of memset takes as long as a small kernel. */
+static inline void lmpi_batch_fill_plane(float *plane, size_t count) {
+    const size_t missing = -count % LMPI_KERNEL_LANES_MAX;
+    plane += count;
+    for (size_t size = 1; size < LMPI_KERNEL_LANES_MAX; size *= 2)
+        if (missing & size) {
+            memset(plane, 0, size * sizeof *plane);
+            plane += size;
+        }
+}
+
 /* Returns elements first … first+count-1 in place, or copied to `plane`, whose lanes past them are
  * 0. */
 static inline const float *lmpi_batch_floats(const float *array, size_t stride, size_t first,
@@ -53,8 +65,7 @@ static inline const float *lmpi_batch_floats(const float *array, size_t stride, 
     else
         for (size_t i = 0; i < count; i++)
             plane[i] = lmpi_element(array, stride, first + i);
-    for (size_t i = count; i % LMPI_KERNEL_LANES_MAX; i++)
-        plane[i] = 0;
+    lmpi_batch_fill_plane(plane, count);
     return plane;
 }
 
@@ -81,10 +92,9 @@ static inline void lmpi_batch_load(const lmp_vec3_array *array, size_t i, lmpi_b
 
 /* Sets the lanes past the last of `count` to 0. */
 static inline void lmpi_batch_fill(lmpi_batch_vec3 planes, size_t count) {
-    const size_t missing = -count % LMPI_KERNEL_LANES_MAX;
-    memset(planes.x + count, 0, missing * sizeof(float));
-    memset(planes.y + count, 0, missing * sizeof(float));
-    memset(planes.z + count, 0, missing * sizeof(float));
+    lmpi_batch_fill_plane(planes.x, count);
+    lmpi_batch_fill_plane(planes.y, count);
+    lmpi_batch_fill_plane(planes.z, count);
 }
 
 /* Returns vectors first … first+count-1 in place where their members are planes, otherwise copied

@@ -183,8 +183,7 @@ void lmpi_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t coun
         load_ggx(surfaces, at, count, lobes, normal, view, planes);
     for (int k = 0; k < lobes; k++) {
         lmpi_batch_fill(planes->lobe[k].axis, count);
-        for (size_t i = count; i % LMPI_KERNEL_LANES_MAX; i++)
-            planes->lobe[k].exponent[i] = 0;
+        lmpi_batch_fill_plane(planes->lobe[k].exponent, count);
     }
 }
 
