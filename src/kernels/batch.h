@@ -97,6 +97,23 @@ static inline void lmpi_batch_fill(lmpi_batch_vec3 planes, size_t count) {
     lmpi_batch_fill_plane(planes.z, count);
 }
 
+/* Whether vectors follow one another as an array of lmp_vec3 does. */
+static inline bool lmpi_batch_is_packed(const lmp_vec3_array *array) {
+    return array->stride == sizeof(lmp_vec3) && array->y == array->x + 1 &&
+           array->z == array->x + 2;
+}
+
+/* Copies vectors that follow one another. The planes must not overlap, so that compilers
+ * vectorize. */
+static inline void lmpi_batch_unpack(const float *vectors, size_t count, float *restrict x,
+                                     float *restrict y, float *restrict z) {
+    for (size_t i = 0; i < count; i++) {
+        x[i] = vectors[3 * i];
+        y[i] = vectors[3 * i + 1];
+        z[i] = vectors[3 * i + 2];
+    }
+}
+
 /* Returns vectors first … first+count-1 in place where their members are planes, otherwise copied
  * in one pass over them. */
 static inline lmpi_kernel_vec3 lmpi_batch_vectors(const lmp_vec3_array *array, size_t first,
@@ -107,8 +124,11 @@ static inline lmpi_kernel_vec3 lmpi_batch_vectors(const lmp_vec3_array *array, s
             lmpi_batch_floats(array->y, array->stride, first, count, planes.y),
             lmpi_batch_floats(array->z, array->stride, first, count, planes.z)
         };
-    for (size_t i = 0; i < count; i++)
-        lmpi_batch_load(array, first + i, planes, i);
+    if (lmpi_batch_is_packed(array))
+        lmpi_batch_unpack(array->x + 3 * first, count, planes.x, planes.y, planes.z);
+    else
+        for (size_t i = 0; i < count; i++)
+            lmpi_batch_load(array, first + i, planes, i);
     lmpi_batch_fill(planes, count);
     return lmpi_batch_planes(planes);
 }
