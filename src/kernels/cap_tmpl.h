@@ -19,6 +19,9 @@
 /* 2 pi is twice the float nearest to pi, so the two agree on the surface to the last bit. */
 #define LMPI_KERNEL_PI 3.14159265f
 
+/* Caps whose recurrences run side by side: as many as their R_l fit the first-level cache. */
+#define CAP_SIDE_BY_SIDE (LMPI_LANES == 16 ? 2 : 4)
+
 typedef struct cap_lanes {
     vf x, y, z;  /* from the point to the center */
     vf per_d;    /* 1/d; 0 at the center */
@@ -116,24 +119,34 @@ LMPI_INLINE void cap_axis(cap_lanes *cap) {
         cap->z = vf_select_less(vf_set(0), cap->per_d, cap->z, center_z);
 }
 
-/* Computes radial[l] = strength s2 R_l(cos a) for 1 <= l < bands, by the differences of R_l
- * (sphere.h: no cancellation however small the light), and radial[0] = strength 2 (1 - cos a). */
-LMPI_INLINE void cap_radial(int bands, const cap_lanes *cap, vf strength, vf *radial) {
+/* Computes radial[k][l] = strength s2 R_l(cos a) of cap k for 1 <= l < bands, by the differences of
+ * R_l (sphere.h: no cancellation however small the light), and radial[k][0] = strength 2 (1 - cos
+ * a). Caps go side by side, because each waits for its own recurrence. */
+LMPI_INLINE void cap_radials(int caps, int bands, const cap_lanes *cap, vf strength,
+                             vf *const *radial) {
     const float *cap_d = lmpi_table_cap_d, *cap_t = lmpi_table_cap_t;
+    vf r[CAP_SIDE_BY_SIDE], difference[CAP_SIDE_BY_SIDE];
     LMPI_OPAQUE(cap_d);
     LMPI_OPAQUE(cap_t);
-    vf r = strength * cap->s2, difference = vf_set(0);
-    radial[0] = (strength + strength) * cap->t_full;
-    if (bands > 1)
-        radial[1] = r;
-    LMPI_UNROLL for (int l = 2; l < bands; l++) {
-        difference = cap_d[l] * difference - cap_t[l] * cap->t * r;
-        r = r + difference;
-        radial[l] = r;
+    LMPI_UNROLL for (int k = 0; k < CAP_SIDE_BY_SIDE; k++) r[k] = difference[k] = vf_set(0);
+    LMPI_UNROLL for (int k = 0; k < caps; k++) {
+        r[k] = strength * cap[k].s2;
+        radial[k][0] = (strength + strength) * cap[k].t_full;
+        if (bands > 1)
+            radial[k][1] = r[k];
     }
-    if (__builtin_expect(cap->inside, 0))
-        for (int l = 2; l < bands; l += 2)
-            radial[l] = radial[l] * cap->even;
+    LMPI_UNROLL for (int l = 2; l < bands; l++) LMPI_UNROLL for (int k = 0; k < caps; k++) {
+        difference[k] = cap_d[l] * difference[k] - cap_t[l] * cap[k].t * r[k];
+        r[k] = r[k] + difference[k];
+        radial[k][l] = r[k];
+    }
+    LMPI_UNROLL for (int k = 0; k < caps;
+                     k++) if (__builtin_expect(cap[k].inside, 0)) for (int l = 2; l < bands; l += 2)
+        radial[k][l] = radial[k][l] * cap[k].even;
+}
+
+LMPI_INLINE void cap_radial(int bands, const cap_lanes *cap, vf strength, vf *radial) {
+    cap_radials(1, bands, cap, strength, &radial);
 }
 
 #endif

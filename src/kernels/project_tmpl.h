@@ -122,24 +122,41 @@ static void kernel_project(int bands, const lmpi_kernel_pairs *pairs, size_t cou
         project_block(bands, pairs, e, count, out);
 }
 
-/* Computes zonal coefficients, L_l0 along the axis: radial_l Y_l0(z) (paper Eq. 12 and 13). */
-LMPI_INLINE void zonal_bands(int bands, int constant, const float *radius, const float *distance,
-                             size_t count, const lmpi_kernel_out *out) {
-    (void)constant;
-    for (size_t e = 0; e < count; e += LMPI_LANES) {
-        vf radial[LMP_BANDS_MAX];
-        const cap_lanes cap = cap_from_distance(vf_load(distance + e), vf_load(radius + e));
-        cap_radial(bands, &cap, vf_set(LMPI_KERNEL_PI), radial);
-        float LMPI_ALIGNED block[LMP_BANDS_MAX * LMPI_LANES];
-        const size_t live = layout_live(count, e);
+/* Computes zonal coefficients, L_l0 along the axis: radial_l Y_l0(z) (paper Eq. 12 and 13), of some
+ * registers of pairs side by side. */
+LMPI_INLINE void zonal_blocks(int blocks, int bands, const float *radius, const float *distance,
+                              size_t element, size_t count, const lmpi_kernel_out *out) {
+    vf memory[CAP_SIDE_BY_SIDE][LMP_BANDS_MAX], *radial[CAP_SIDE_BY_SIDE];
+    float LMPI_ALIGNED block[LMP_BANDS_MAX * LMPI_LANES];
+    cap_lanes cap[CAP_SIDE_BY_SIDE];
+    LMPI_UNROLL for (int k = 0; k < blocks; k++) {
+        const size_t e = element + (size_t)k * LMPI_LANES;
+        cap[k] = cap_from_distance(vf_load(distance + e), vf_load(radius + e));
+        radial[k] = memory[k];
+    }
+    cap_radials(blocks, bands, cap, vf_set(LMPI_KERNEL_PI), radial);
+    LMPI_UNROLL for (int k = 0; k < blocks; k++) {
+        const size_t e = element + (size_t)k * LMPI_LANES, live = layout_live(count, e);
         const int direct = out->planar && live == LMPI_LANES;
         float *to = direct ? out->at + e : block;
         const size_t stride = direct ? out->stride : LMPI_LANES;
         LMPI_UNROLL for (int l = 0; l < bands; l++)
-            vf_store(to + (size_t)l * stride, radial[l] * lmpi_table_pole[l]);
+            vf_store(to + (size_t)l * stride, radial[k][l] * lmpi_table_pole[l]);
         if (!direct)
             layout_put(block, 0, (size_t)bands, out, e, live);
     }
+}
+
+/* Few bands wait little, and straight-line code of one register is short. */
+LMPI_INLINE void zonal_bands(int bands, int constant, const float *radius, const float *distance,
+                             size_t count, const lmpi_kernel_out *out) {
+    const size_t side = CAP_SIDE_BY_SIDE * LMPI_LANES;
+    size_t e = 0;
+    if (!constant)
+        for (; e + side <= count; e += side)
+            zonal_blocks(CAP_SIDE_BY_SIDE, bands, radius, distance, e, count, out);
+    for (; e < count; e += LMPI_LANES)
+        zonal_blocks(1, bands, radius, distance, e, count, out);
 }
 
 static void kernel_zonal(int bands, const float *radius, const float *distance, size_t count,
