@@ -12,7 +12,7 @@
 
 static void check(const view_settings *s) {
     if (s->width < 1 || s->height < 1 || s->samples < 1 || s->light_count > SCENE_LIGHTS_MAX ||
-        s->material_count > RENDER_TABLES_MAX || !(s->exposure > 0) || s->split >= GPU_SPLITS)
+        s->materials.count > RENDER_TABLES_MAX || !(s->exposure > 0) || s->split >= GPU_SPLITS)
         abort();
     for (int i = 0; i < 2; i++)
         if (s->shading[i].bands < 1 ||

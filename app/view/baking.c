@@ -18,7 +18,6 @@ static pid_t start(view_baking *baking, const view_shading *shading) {
     static char program[] = "/proc/self/exe", name[] = "lampion", command[] = "brdf",
                 action[] = "bake", too[] = "--preintegrated", names[] = "--";
     char bands[24], window[32], *arguments[OPTIONS + RENDER_TABLES_MAX + 1];
-    const bool preintegrated = method_table[shading->method].reads & METHOD_READS_PREINTEGRATED;
     int count = 0;
     snprintf(bands, sizeof bands, "--bands=%d", shading->bands);
     snprintf(window, sizeof window, "--window=%s", lmp_sh_window_name(shading->window));
@@ -27,11 +26,11 @@ static pid_t start(view_baking *baking, const view_shading *shading) {
     arguments[count++] = action;
     arguments[count++] = bands;
     arguments[count++] = window;
-    if (preintegrated)
+    if (view_is_preintegrated(shading))
         arguments[count++] = too;
     arguments[count++] = names;
-    for (int i = 0; i < baking->material_count; i++) {
-        char *equals = strchr(baking->materials[i], '=');
+    for (int i = 0; i < baking->materials.count; i++) {
+        char *equals = strchr(baking->materials.texts[i], '=');
         if (equals)
             arguments[count++] = equals + 1;
     }
@@ -50,11 +49,10 @@ static pid_t start(view_baking *baking, const view_shading *shading) {
 
 bool view_bakes(const view_baking *baking, const view_settings *settings) {
     const int sides = view_sides(settings);
-    return baking->sides == sides && baking->material_count == settings->material_count &&
+    return baking->sides == sides &&
            memcmp(baking->shading, settings->shading, (size_t)sides * sizeof *baking->shading) ==
                0 &&
-           memcmp(baking->materials, settings->materials,
-                  (size_t)settings->material_count * sizeof *baking->materials) == 0;
+           memcmp(&baking->materials, &settings->materials, sizeof baking->materials) == 0;
 }
 
 /* Whether there is a cache, without which the other process's tables could not be read. */
@@ -65,14 +63,13 @@ static bool has_cache(void) {
 
 bool view_bake(view_baking *baking, const view_settings *settings) {
     const int sides = view_sides(settings);
-    if (settings->material_count == 0 || !has_cache())
+    if (settings->materials.count == 0 || !has_cache())
         return false;
     if (!view_bakes(baking, settings)) {
         view_baking_stop(baking);
         baking->sides = sides;
-        baking->material_count = settings->material_count;
         memcpy(baking->shading, settings->shading, sizeof baking->shading);
-        memcpy(baking->materials, settings->materials, sizeof baking->materials);
+        baking->materials = settings->materials;
     }
     while (baking->process == 0 || waitpid(baking->process, NULL, WNOHANG) != 0) {
         baking->process = 0;

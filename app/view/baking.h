@@ -11,9 +11,9 @@
 /* The tabulation in progress, or the last one; zero-initialized: none yet. */
 typedef struct view_baking {
     pid_t process; /* tabulates one side after the other, each on all cores; 0: none */
-    int started, sides, material_count;
+    int started, sides;
     view_shading shading[2];
-    char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE];
+    view_replacements materials;
 } view_baking;
 
 /* Whether the tables of these settings are being made, or were. */

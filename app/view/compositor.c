@@ -120,10 +120,6 @@ static bool prepare_field(view_compositor *s, side *own, const view_shading *sha
 
 /* --- materials -------------------------------------------------------------------------------- */
 
-static bool is_preintegrated(const view_shading *shading) {
-    return method_table[shading->method].reads & METHOD_READS_PREINTEGRATED;
-}
-
 static bool has_materials(const view_compositor *s, const side *own, const view_settings *settings,
                           const view_shading *shading) {
     return view_materials_match(&own->materials, s->world, settings, shading);
@@ -167,7 +163,7 @@ const char *view_compositor_pending(view_compositor *s, const view_settings *set
         const view_shading *shading = &settings->shading[i];
         if (!has_materials(s, &s->sides[i], settings, shading))
             return "projecting the materials …";
-        if (is_preintegrated(shading) && !view_lobes_have(&s->lobes, shading))
+        if (view_is_preintegrated(shading) && !view_lobes_have(&s->lobes, shading))
             return "integrating the lobes …";
     }
     if (settings->shadows && !s->shadows)
@@ -196,7 +192,7 @@ static bool prepare_renderer(view_compositor *s, side *own, any_renderer *render
     if (!renderer)
         return false;
     renderer_set_environment(renderer, &s->surroundings.around);
-    return !override_is_needed(own->materials.count, s->world) ||
+    return !override_is_needed(own->materials.of.count, s->world) ||
            override_apply(&own->materials.made, s->world, renderer, error);
 }
 
@@ -236,7 +232,7 @@ static bool has_areas(const view_settings *settings) {
 static device_kind device_of(const view_settings *settings, const view_shading *shading,
                              bool shines, bool software) {
     const method_needs needs = { .bands = shading->bands,
-                                 .tables = settings->material_count > 0 && shines,
+                                 .tables = settings->materials.count > 0 && shines,
                                  .areas = has_areas(settings),
                                  .software = software };
     return method_device(shading->method, DEVICE_AUTO, &needs);
@@ -378,9 +374,9 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
         .progress = s->progress,
     };
     memcpy(frame->background, settings->background, sizeof frame->background);
-    if (is_preintegrated(shading))
+    if (view_is_preintegrated(shading))
         frame->lobes = view_lobes_get(&s->lobes, shading, error);
-    return (!is_preintegrated(shading) || frame->lobes) &&
+    return (!view_is_preintegrated(shading) || frame->lobes) &&
            (s->surroundings.around.sun_count == 0 || add_suns(s, frame, error));
 }
 

@@ -30,16 +30,12 @@ static void show(viewer *v) {
 /* Restores the shading settings of the last image that could be drawn. */
 static void shade_as_before(const viewer *v, view_settings *settings) {
     memcpy(settings->shading, v->good->shading, sizeof v->good->shading);
-    memcpy(settings->materials, v->good->materials, sizeof v->good->materials);
-    settings->material_count = v->good->material_count;
+    settings->materials = v->good->materials;
     settings->split = v->good->split;
     settings->shadows = v->good->shadows;
     settings->bounces = v->good->bounces;
-    if (strcmp(settings->scene, v->good->scene) != 0)
-        return;
-    memcpy(settings->environment, v->good->environment, sizeof v->good->environment);
-    settings->environment_rotation = v->good->environment_rotation;
-    settings->environment_strength = v->good->environment_strength;
+    if (strcmp(settings->scene, v->good->scene) == 0)
+        settings->environment = v->good->environment;
 }
 
 /* Reverts settings that cannot be drawn, with a message that says why. */
@@ -123,7 +119,7 @@ static bool draw(viewer *v, bool *worked, base_error *error) {
  * reports that. */
 static bool is_baking(viewer *v) {
     const view_settings *s = v->shown;
-    return s->material_count > 0 &&
+    return s->materials.count > 0 &&
            (view_bakes(&v->baking, s) || view_compositor_fits(v->compositor, s)) &&
            view_bake(&v->baking, s);
 }

@@ -4,34 +4,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct kept_light {
-    scene_light light;
-    size_t number;
-} kept_light;
+/* What is undone and redone is the end of the settings, from the hidden nodes on. */
+enum { BEGINNING = offsetof(view_settings, hidden) };
 
 struct view_moment {
-    int hidden_count, material_count;
-    view_range hidden[VIEW_HIDDEN_MAX];
-    char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE];
     size_t light_count;
-    kept_light lights[];
+    unsigned char bytes[]; /* the end of the settings; then the numbers of the lights */
 };
 
+static size_t end_size(size_t light_count) {
+    return offsetof(view_settings, lights) - BEGINNING + light_count * sizeof(scene_light);
+}
+
 static size_t size_of(size_t light_count) {
-    return sizeof(view_moment) + light_count * sizeof(kept_light);
+    return sizeof(view_moment) + end_size(light_count) + light_count * sizeof(size_t);
 }
 
 static bool is_present(const view_moment *m, const view_settings *now, const size_t *numbers) {
-    if (m->light_count != now->light_count || m->material_count != now->material_count ||
-        m->hidden_count != now->hidden_count ||
-        memcmp(m->hidden, now->hidden, sizeof m->hidden) != 0 ||
-        memcmp(m->materials, now->materials, sizeof m->materials) != 0)
-        return false;
-    for (size_t i = 0; i < m->light_count; i++)
-        if (m->lights[i].number != numbers[i] ||
-            memcmp(&m->lights[i].light, &now->lights[i], sizeof now->lights[i]) != 0)
-            return false;
-    return true;
+    const size_t end = end_size(m->light_count);
+    return m->light_count == now->light_count &&
+           memcmp(m->bytes, (const char *)now + BEGINNING, end) == 0 &&
+           memcmp(m->bytes + end, numbers, m->light_count * sizeof *numbers) == 0;
 }
 
 static void forget(view_history *h, int index) {
@@ -55,13 +48,9 @@ void view_history_keep(view_history *h, const view_settings *now, const size_t *
         view_history_clear(h); /* undo must not skip a change that could not be kept */
         return;
     }
-    m->hidden_count = now->hidden_count;
-    memcpy(m->hidden, now->hidden, sizeof m->hidden);
-    m->material_count = now->material_count;
-    memcpy(m->materials, now->materials, sizeof m->materials);
     m->light_count = now->light_count;
-    for (size_t i = 0; i < now->light_count; i++)
-        m->lights[i] = (kept_light) { now->lights[i], numbers[i] };
+    memcpy(m->bytes, (const char *)now + BEGINNING, end_size(m->light_count));
+    memcpy(m->bytes + end_size(m->light_count), numbers, m->light_count * sizeof *numbers);
     h->bytes += size;
     h->moments[h->count] = m;
     h->at = h->count++;
@@ -73,16 +62,9 @@ bool view_history_step(view_history *h, int step, view_settings *now, size_t *nu
         return false;
     const view_moment *m = h->moments[to];
     h->at = to;
-    now->hidden_count = m->hidden_count;
-    memcpy(now->hidden, m->hidden, sizeof m->hidden);
-    now->material_count = m->material_count;
-    memcpy(now->materials, m->materials, sizeof m->materials);
     memset(now->lights, 0, now->light_count * sizeof *now->lights);
-    now->light_count = m->light_count;
-    for (size_t i = 0; i < m->light_count; i++) {
-        now->lights[i] = m->lights[i].light;
-        numbers[i] = m->lights[i].number;
-    }
+    memcpy((char *)now + BEGINNING, m->bytes, end_size(m->light_count));
+    memcpy(numbers, m->bytes + end_size(m->light_count), m->light_count * sizeof *numbers);
     return true;
 }
 

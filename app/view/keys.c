@@ -18,20 +18,15 @@ static view_shading *shading_here(view_state *s) {
     return &s->now.shading[view_side(s)];
 }
 
-static void hold_bands(view_shading *shading) {
-    const int most = method_table[shading->method].bands_max[DEVICE_AUTO];
-    shading->bands = shading->bands < 1 ? 1 : shading->bands > most ? most : shading->bands;
-}
-
 static void change_method(view_state *s, int step) {
     view_shading *shading = shading_here(s);
     shading->method = (method_kind)(((int)shading->method + step + METHODS) % METHODS);
-    hold_bands(shading);
+    view_hold_bands(shading);
 }
 
 static void change_bands(view_state *s, int step) {
     shading_here(s)->bands += step;
-    hold_bands(shading_here(s));
+    view_hold_bands(shading_here(s));
 }
 
 static void change_window(view_state *s, int step) {

@@ -6,13 +6,12 @@
 #include "app/render/renderer/override.h"
 #include "app/view/settings.h"
 
-/* The materials of some settings; zero-initialized: none. Free with view_materials_free. */
+/* The materials of some settings, and the shading that they were made for; zero-initialized: none.
+ * Free with view_materials_free. */
 typedef struct view_materials {
     override_set made;
-    char (*names)[VIEW_MATERIAL_SIZE]; /* RENDER_TABLES_MAX allocated */
-    int count, bands;
-    lmp_window window;
-    bool preintegrated;
+    view_replacements of;
+    view_shading shading;
 } view_materials;
 
 /* Whether the materials are those that a side of the settings needs. */

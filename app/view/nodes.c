@@ -9,22 +9,22 @@
 /* --- which are hidden ------------------------------------------------------------------------- */
 
 /* Returns how many ranges of hidden instances end before this one. */
-static int ranges_before(const view_settings *s, size_t instance) {
+static int ranges_before(const view_hidden *h, size_t instance) {
     int at = 0;
-    while (at < s->hidden_count && s->hidden[at].last < instance)
+    while (at < h->count && h->ranges[at].last < instance)
         at++;
     return at;
 }
 
 /* Whether all instances from one to another are hidden. */
-static bool are_hidden(const view_settings *s, size_t first, size_t last) {
-    const int at = ranges_before(s, first);
-    return at < s->hidden_count && s->hidden[at].first <= first && s->hidden[at].last >= last;
+static bool are_hidden(const view_hidden *h, size_t first, size_t last) {
+    const int at = ranges_before(h, first);
+    return at < h->count && h->ranges[at].first <= first && h->ranges[at].last >= last;
 }
 
 bool view_node_is_hidden(const view_state *s, size_t node) {
     const size_t first = s->world->nodes[node].first, end = scene_node_end(s->world, node);
-    return first < end && are_hidden(&s->now, first, end - 1);
+    return first < end && are_hidden(&s->now.hidden, first, end - 1);
 }
 
 /* Adds a range after those in a list, or joins it to the last one. */
@@ -37,22 +37,21 @@ static int add_range(view_range *list, int count, uint32_t first, uint32_t last)
 }
 
 /* Hides or shows a run of instances; returns false if that takes too many ranges. */
-static bool set_hidden(view_settings *s, view_range run, bool hides) {
+static bool set_hidden(view_hidden *h, view_range run, bool hides) {
     view_range list[VIEW_HIDDEN_MAX + 2];
     int count = 0;
-    for (const view_range *r = s->hidden; r < s->hidden + s->hidden_count; r++)
+    for (const view_range *r = h->ranges; r < h->ranges + h->count; r++)
         if (r->first < run.first)
             count = add_range(list, count, r->first, r->last < run.first ? r->last : run.first - 1);
     if (hides)
         count = add_range(list, count, run.first, run.last);
-    for (const view_range *r = s->hidden; r < s->hidden + s->hidden_count; r++)
+    for (const view_range *r = h->ranges; r < h->ranges + h->count; r++)
         if (r->last > run.last)
             count = add_range(list, count, r->first > run.last ? r->first : run.last + 1, r->last);
     if (count > VIEW_HIDDEN_MAX)
         return false;
-    memset(s->hidden, 0, sizeof s->hidden);
-    memcpy(s->hidden, list, (size_t)count * sizeof *list);
-    s->hidden_count = count;
+    *h = (view_hidden) { .count = count };
+    memcpy(h->ranges, list, (size_t)count * sizeof *list);
     return true;
 }
 
@@ -62,8 +61,9 @@ static bool set_hidden(view_settings *s, view_range run, bool hides) {
 static long node_at_pointer(const view_state *s) {
     view_ray ray;
     long instance = view_hit_at_pointer(s, &ray).instance;
-    for (int i = 0; i < s->now.hidden_count && instance >= (long)s->now.hidden[i].first; i++)
-        instance += (long)s->now.hidden[i].last - (long)s->now.hidden[i].first + 1;
+    const view_hidden *h = &s->now.hidden;
+    for (int i = 0; i < h->count && instance >= (long)h->ranges[i].first; i++)
+        instance += (long)h->ranges[i].last - (long)h->ranges[i].first + 1;
     return instance < 0 ? -1 : (long)scene_node_of(s->world, (size_t)instance);
 }
 
@@ -109,7 +109,7 @@ void view_hide_node(view_state *s, int unused) {
         return;
     const bool hidden = view_node_is_hidden(s, (size_t)node);
     s->requests.nodes = true;
-    if (set_hidden(&s->now, run, !hidden))
+    if (set_hidden(&s->now.hidden, run, !hidden))
         view_say(s, "%s is %s", scene_node_name(s->world, (size_t)node),
                  hidden ? "shown" : "hidden");
     else
@@ -123,14 +123,14 @@ void view_isolate_node(view_state *s, int unused) {
     if (node < 0)
         return;
     s->requests.nodes = true;
-    set_hidden(&s->now, (view_range) { 0, (uint32_t)s->world->instance_count - 1 }, true);
-    set_hidden(&s->now, run, false);
+    set_hidden(&s->now.hidden, (view_range) { 0, (uint32_t)s->world->instance_count - 1 }, true);
+    set_hidden(&s->now.hidden, run, false);
     view_say(s, "%s alone", scene_node_name(s->world, (size_t)node));
 }
 
 void view_show_nodes(view_state *s, int unused) {
     (void)unused;
-    set_hidden(&s->now, (view_range) { 0, UINT32_MAX }, false);
+    set_hidden(&s->now.hidden, (view_range) { 0, UINT32_MAX }, false);
     s->requests.nodes = true;
     view_say(s, "All nodes");
 }
@@ -150,7 +150,7 @@ scene *view_part_make(const scene *whole, const view_settings *settings, base_er
     part->instances = instances;
     part->instance_count = part->node_count = 0;
     for (size_t i = 0; i < whole->instance_count; i++)
-        if (!settings || !are_hidden(settings, i, i))
+        if (!settings || !are_hidden(&settings->hidden, i, i))
             instances[part->instance_count++] = whole->instances[i];
     return part;
 }

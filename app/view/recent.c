@@ -126,10 +126,7 @@ void view_resume_session(viewer *v) {
     if (last && root && view_settings_from_json(root, path, last, &error) &&
         last->up == s->now.up) {
         view_settings_rebase(last, s->now.origin);
-        memcpy(s->now.environment, last->environment, sizeof last->environment);
-        s->now.environment_rotation = last->environment_rotation;
-        s->now.environment_strength = last->environment_strength;
-        s->now.ground = last->ground;
+        s->now.environment = last->environment;
         s->now.exposure = last->exposure;
         s->now.camera = last->camera;
         view_put_lights(s, last->lights, last->light_count);

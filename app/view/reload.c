@@ -78,10 +78,11 @@ scene *view_load_scene(viewer *v, const char *name, const scene_options *options
 
 /* Drops replacements of materials that the scene no longer has. */
 static void drop_lost_materials(view_state *state) {
-    for (int i = state->now.material_count - 1; i >= 0; i--) {
+    for (int i = state->now.materials.count - 1; i >= 0; i--) {
+        const char *text = state->now.materials.texts[i];
         char name[SCENE_NAME_SIZE] = "";
         bool found = false;
-        memcpy(name, state->now.materials[i], strcspn(state->now.materials[i], "=") % sizeof name);
+        memcpy(name, text, strcspn(text, "=") % sizeof name);
         for (size_t m = 0; m < state->world->material_count; m++)
             found = found || strcmp(state->world->materials[m].name, name) == 0;
         if (!found)
@@ -99,15 +100,16 @@ static bool suits_shadows(const scene *world, const char *surroundings) {
 bool view_choose_environment(viewer *v, base_error *error) {
     const view_options *o = v->options;
     view_settings *now = &v->state.now;
+    view_environment *around = &now->environment;
     if (o->keep_lights && !v->another)
         return true;
     const char *name = environment_choose(&o->environment, v->world);
-    if (strlen(name) >= sizeof now->environment)
+    if (strlen(name) >= sizeof around->name)
         return base_fail(error, name, "is too long a name");
-    strcpy(now->environment, name);
-    now->environment_rotation = o->environment.rotation;
-    now->environment_strength = o->environment.strength;
-    now->ground = o->environment.ground;
+    strcpy(around->name, name);
+    around->rotation = o->environment.rotation;
+    around->strength = o->environment.strength;
+    around->ground = o->environment.ground;
     if (!o->shadows_chosen)
         now->shadows = suits_shadows(v->world, name);
     return true;
@@ -161,8 +163,7 @@ void view_change_part(viewer *v) {
         replace_drawing(v, &d);
         s->tree = d.tree;
     } else {
-        s->now.hidden_count = v->drawn->hidden_count;
-        memcpy(s->now.hidden, v->drawn->hidden, sizeof s->now.hidden);
+        s->now.hidden = v->drawn->hidden;
         view_say(s, "%s", error.text);
     }
 }

@@ -107,64 +107,16 @@ static bool set_view(view_state *s, const char *name, const char *typed, base_er
 
 /* --- settings --------------------------------------------------------------------------------- */
 
-/* Replaces a member of an object, or of one within, by its path. Those within have all that they
- * may have, but for a camera's height. */
-static bool replace_member(json_t *root, const char *path, const char *typed) {
-    const char *slash;
-    json_t *at = root;
-    for (; at && (slash = strchr(path, '/')); path = slash + 1) {
-        char name[32];
-        snprintf(name, sizeof name, "%.*s", (int)(slash - path), path);
-        at = json_is_array(at) ? json_array_get(at, strtoul(name, NULL, 10))
-                               : json_object_get(at, name);
-    }
-    if (at != root && !json_object_get(at, path) && strcmp(path, "height") != 0)
-        return false;
-    return json_object_set_new(at, path, parse_value(typed)) == 0;
-}
-
-/* Takes back bands that a method does not have. */
-static void hold_bands(json_t *look) {
-    const char *name = json_string_value(json_object_get(look, "method"));
-    const int method = name ? view_find_name(method_names(), name) : -1;
-    if (method < 0)
-        return;
-    json_t *const bands = json_object_get(look, "bands");
-    const int most = method_table[method].bands_max[DEVICE_AUTO];
-    if (json_integer_value(bands) > most)
-        json_integer_set(bands, most);
-}
-
 static bool set_setting(view_state *s, const char *path, const char *typed, base_error *error) {
-    /* the scene, its lights and materials are set otherwise */
-    static const char *const names[] = { "samples",  "shadows",      "bounces", "ground",
-                                         "exposure", "tone",         "split",   "background",
-                                         "divider",  "environment/", "camera/", "looks/" };
-    bool known = false;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const char *rest = after(path, names[i]);
-        known = known || (rest && (rest > path && rest[-1] == '/' ? *rest : !*rest));
-    }
-    view_settings *fresh = known ? calloc(1, sizeof *fresh) : NULL;
-    if (!fresh)
-        return base_fail(error, path, known ? "out of memory" : "is nothing that can be set");
-    const size_t size = offsetof(view_settings, material_count);
-    memcpy(fresh, &s->now, size);
-    json_t *root = view_settings_to_json(fresh);
-    bool ok = root && replace_member(root, path, typed);
-    for (size_t side = 0; side < 2; side++)
-        hold_bands(json_array_get(json_object_get(root, "looks"), side));
-    ok = (ok && view_settings_from_json(root, path, fresh, error)) ||
-         base_fail(error, path, "cannot be \"%s\"", typed);
-    if (ok) {
-        const scene_camera before = s->now.camera;
-        memcpy(&s->now, fresh, size);
-        if (!after(path, "camera/"))
-            s->now.camera = before; /* its JSON has not all of it */
-    }
-    json_decref(root);
-    free(fresh);
-    return ok;
+    const view_member *member = view_find_member(path);
+    if (!member)
+        return base_fail(error, path, "is nothing that can be set");
+    json_t *item = parse_value(typed);
+    const bool ok = view_read_member(member, item, &s->now);
+    json_decref(item);
+    for (int side = 0; side < 2; side++)
+        view_hold_bands(&s->now.shading[side]);
+    return ok || base_fail(error, path, "cannot be \"%s\"", typed);
 }
 
 /* --- any -------------------------------------------------------------------------------------- */

@@ -18,17 +18,17 @@ const char *const view_split_names[GPU_SPLITS + 1] = { "none", "divided", "diffe
 
 /* --- materials -------------------------------------------------------------------------------- */
 
-static int find_material(const view_settings *s, const char *material_name) {
+static int find_material(const view_replacements *m, const char *material_name) {
     const size_t length = strlen(material_name);
-    for (int i = 0; i < s->material_count; i++)
-        if (strncmp(s->materials[i], material_name, length) == 0 && s->materials[i][length] == '=')
+    for (int i = 0; i < m->count; i++)
+        if (strncmp(m->texts[i], material_name, length) == 0 && m->texts[i][length] == '=')
             return i;
     return -1;
 }
 
 const char *view_material_of(const view_settings *s, const char *material_name) {
-    const int index = find_material(s, material_name);
-    return index < 0 ? NULL : s->materials[index] + strlen(material_name) + 1;
+    const int index = find_material(&s->materials, material_name);
+    return index < 0 ? NULL : s->materials.texts[index] + strlen(material_name) + 1;
 }
 
 int view_find_name(const char *const *names, const char *name) {
@@ -39,24 +39,25 @@ int view_find_name(const char *const *names, const char *name) {
 }
 
 bool view_set_material(view_settings *s, const char *material_name, const char *replacement) {
-    int index = find_material(s, material_name);
+    view_replacements *m = &s->materials;
+    int index = find_material(m, material_name);
     if (!replacement) {
         if (index >= 0) {
-            s->material_count--;
-            memmove(s->materials[index], s->materials[index + 1],
-                    (size_t)(s->material_count - index) * sizeof s->materials[0]);
-            memset(s->materials[s->material_count], 0, sizeof s->materials[0]);
+            m->count--;
+            memmove(m->texts[index], m->texts[index + 1],
+                    (size_t)(m->count - index) * sizeof *m->texts);
+            memset(m->texts[m->count], 0, sizeof *m->texts);
         }
         return true;
     }
     if (strchr(material_name, '=') ||
-        strlen(material_name) + strlen(replacement) + 2 > sizeof s->materials[0] ||
-        (index < 0 && s->material_count == RENDER_TABLES_MAX))
+        strlen(material_name) + strlen(replacement) + 2 > sizeof *m->texts ||
+        (index < 0 && m->count == RENDER_TABLES_MAX))
         return false;
     if (index < 0)
-        index = s->material_count++;
-    memset(s->materials[index], 0, sizeof s->materials[0]);
-    snprintf(s->materials[index], sizeof s->materials[0], "%s=%s", material_name, replacement);
+        index = m->count++;
+    memset(m->texts[index], 0, sizeof *m->texts);
+    snprintf(m->texts[index], sizeof *m->texts, "%s=%s", material_name, replacement);
     return true;
 }
 
@@ -75,207 +76,160 @@ void view_settings_rebase(view_settings *s, const double origin[3]) {
     memcpy(s->origin, origin, sizeof s->origin);
 }
 
+/* --- members ---------------------------------------------------------------------------------- */
+
+#define FAR ((double)LMP_LENGTH_MAX)
+#define MEMBER(label, kind, place)                                                                 \
+    .name = (label), .type = VIEW_##kind, .offset = offsetof(view_settings, place)
+#define SIDE(i)                                                                                    \
+    { MEMBER("method", CHOICE, shading[i].method), .list = method_names },                         \
+        { MEMBER("bands", INTEGER, shading[i].bands), .range = { 1, LMP_BANDS_MAX } },             \
+        { MEMBER("window", CHOICE, shading[i].window), .list = method_window_names },
+
+static const view_member left[] = { SIDE(0) { NULL } }, right[] = { SIDE(1) { NULL } };
+
+static const view_member sides[] = {
+    { MEMBER("0", OBJECT, shading[0]), .members = left },
+    { MEMBER("1", OBJECT, shading[1]), .members = right },
+    { NULL },
+};
+
+static const view_member environment_members[] = {
+    { MEMBER("name", FILE, environment.name) },
+    { MEMBER("rotation", FLOAT, environment.rotation), .range = { -360, 360 } },
+    { MEMBER("strength", FLOAT, environment.strength), .range = { 0, ENVIRONMENT_STRENGTH_MAX } },
+    { NULL },
+};
+
+static const view_member camera_members[] = {
+    { MEMBER("eye", POINT, camera.eye) },
+    { MEMBER("target", POINT, camera.target) },
+    { MEMBER("up", FLOATS, camera.up), .range = { -FAR, FAR } },
+    { MEMBER("fov", FLOAT, camera.fov), .range = { 0.001, 3.1 } },
+    { MEMBER("height", FLOAT, camera.height), VIEW_UNUSUAL, .range = { 1e-6, FAR } },
+    { NULL },
+};
+
+/* In the order in which they are read: what is in the world needs the origin before it. */
+static const view_member settings_members[] = {
+    { MEMBER("scene", FILE, scene), VIEW_FIXED },
+    { MEMBER("up", CHOICE, up), VIEW_FIXED | VIEW_UNUSUAL, .absent = SCENE_UP_Y,
+      .choices = scene_up_names },
+    { MEMBER("leaves", CHOICE, leaves), VIEW_FIXED | VIEW_UNUSUAL, .choices = scene_leaves_names },
+    { MEMBER("variant", TEXT, variant), VIEW_FIXED | VIEW_UNUSUAL },
+    { MEMBER("width", INTEGER, width), VIEW_FIXED, .range = { 1, IMAGE_SIZE_MAX } },
+    { MEMBER("height", INTEGER, height), VIEW_FIXED, .range = { 1, IMAGE_SIZE_MAX } },
+    { MEMBER("samples", INTEGER, samples), .range = { 1, VIEW_SAMPLES_MAX } },
+    { MEMBER("shadows", FLAG, shadows), VIEW_OPTIONAL },
+    { MEMBER("bounces", INTEGER, bounces), VIEW_UNUSUAL, .range = { 0, TRANSFER_BOUNCES_MAX } },
+    { MEMBER("ground", CHOICE, environment.ground), VIEW_OPTIONAL, .absent = ENVIRONMENT_GROUND_OFF,
+      .choices = environment_ground_names },
+    { MEMBER("exposure", FLOAT, exposure), .range = { 1e-30, 1e30 } },
+    { MEMBER("tone", CHOICE, tone), VIEW_OPTIONAL, .list = image_tone_names },
+    { MEMBER("background", FLOATS, background), .range = { 0, 1e30 } },
+    { MEMBER("environment", OBJECT, environment), VIEW_OPTIONAL, .members = environment_members },
+    { MEMBER("origin", ORIGIN, origin), VIEW_FIXED | VIEW_UNUSUAL, .range = { -FAR, FAR } },
+    { MEMBER("camera", OBJECT, camera), .members = camera_members },
+    { MEMBER("looks", ARRAY, shading), .members = sides },
+    { MEMBER("split", CHOICE, split), .choices = view_split_names },
+    { MEMBER("divider", FLOAT, divider), .range = { 0, 1 } },
+    { MEMBER("hidden", HIDDEN, hidden), VIEW_FIXED | VIEW_UNUSUAL },
+    { MEMBER("materials", MATERIALS, materials), VIEW_FIXED },
+    { MEMBER("lights", LIGHTS, lights), VIEW_FIXED },
+    { NULL },
+};
+
 /* --- to JSON ---------------------------------------------------------------------------------- */
 
-static json_t *camera_to_json(const view_settings *s) {
-    const scene_camera *camera = &s->camera;
-    json_t *object =
-        json_pack("{s:o, s:o, s:o, s:o}", "eye", scene_world_to_json(s->origin, camera->eye),
-                  "target", scene_world_to_json(s->origin, camera->target), "up",
-                  file_json_floats(camera->up, 3), "fov", file_json_float(camera->fov));
-    return camera->height > 0 ? file_json_with(object, "height", file_json_float(camera->height))
-                              : object;
-}
-
-static json_t *shading_to_json(const view_shading *shading) {
-    return json_pack("{s:s, s:i, s:s}", "method", method_table[shading->method].name, "bands",
-                     shading->bands, "window", lmp_sh_window_name(shading->window));
-}
-
-static json_t *environment_to_json(const view_settings *s) {
-    return json_pack("{s:o, s:o, s:o}", "name", file_json_string(s->environment), "rotation",
-                     file_json_float(s->environment_rotation), "strength",
-                     file_json_float(s->environment_strength));
-}
-
-static json_t *hidden_to_json(const view_settings *s) {
+static json_t *hidden_to_json(const view_hidden *hidden) {
     json_t *ranges = json_array();
-    for (int i = 0; i < s->hidden_count; i++)
-        ranges = file_json_append(ranges, json_pack("[I, I]", (json_int_t)s->hidden[i].first,
-                                                    (json_int_t)s->hidden[i].last));
+    for (const view_range *r = hidden->ranges; r < hidden->ranges + hidden->count; r++)
+        ranges = file_json_append(ranges,
+                                  json_pack("[I, I]", (json_int_t)r->first, (json_int_t)r->last));
     return ranges;
 }
 
-json_t *view_settings_to_json(const view_settings *s) {
-    json_t *materials = json_array(), *lights = json_array();
-    for (int i = 0; i < s->material_count; i++)
-        materials = file_json_append(materials, file_json_string(s->materials[i]));
+static json_t *materials_to_json(const view_replacements *materials) {
+    json_t *texts = json_array();
+    for (int i = 0; i < materials->count; i++)
+        texts = file_json_append(texts, file_json_string(materials->texts[i]));
+    return texts;
+}
+
+static json_t *lights_to_json(const view_settings *s) {
+    json_t *lights = json_array();
     for (size_t i = 0; i < s->light_count; i++)
         lights = file_json_append(lights, scene_light_to_json(&s->lights[i], s->origin));
-    json_t *root = json_pack("{s:o}", "scene", file_json_string(s->scene));
-    if (s->up == SCENE_UP_Z)
-        root = file_json_with(root, "up", json_string(scene_up_names[s->up]));
-    if (s->leaves != SCENE_LEAVES_TRANSLUCENT)
-        root = file_json_with(root, "leaves", json_string(scene_leaves_names[s->leaves]));
-    if (s->variant[0])
-        root = file_json_with(root, "variant", file_json_string(s->variant));
-    root = file_json_with(root, "width", json_integer(s->width));
-    root = file_json_with(root, "height", json_integer(s->height));
-    root = file_json_with(root, "samples", json_integer(s->samples));
-    root = file_json_with(root, "shadows", json_boolean(s->shadows));
-    if (s->bounces > 0)
-        root = file_json_with(root, "bounces", json_integer(s->bounces));
-    root = file_json_with(root, "ground", json_string(environment_ground_names[s->ground]));
-    root = file_json_with(root, "exposure", file_json_float(s->exposure));
-    root = file_json_with(root, "tone", json_string(image_tones[s->tone].name));
-    root = file_json_with(root, "background", file_json_floats(s->background, 3));
-    root = file_json_with(root, "environment", environment_to_json(s));
-    /* Written where it is not 0, so that what is in the world is restored to the bit. */
-    if (!scene_origin_is_0(s->origin))
-        root = file_json_with(root, "origin",
-                              scene_world_to_json(s->origin, (const float[3]) { 0, 0, 0 }));
-    root = file_json_with(root, "camera", camera_to_json(s));
-    root = file_json_with(
-        root, "looks",
-        json_pack("[o, o]", shading_to_json(&s->shading[0]), shading_to_json(&s->shading[1])));
-    root = file_json_with(root, "split", json_string(view_split_names[s->split]));
-    root = file_json_with(root, "divider", file_json_float(s->divider));
-    if (s->hidden_count > 0)
-        root = file_json_with(root, "hidden", hidden_to_json(s));
-    root = file_json_with(root, "materials", materials);
-    return file_json_with(root, "lights", lights);
+    return lights;
+}
+
+const char *const *view_choices(const view_member *m) {
+    return m->choices ? m->choices : m->list();
+}
+
+static json_t *members_to_json(const view_member *members, const view_settings *s, json_t *to);
+
+static json_t *value_to_json(const view_member *m, const view_settings *s) {
+    const void *value = (const char *)s + m->offset;
+    switch (m->type) {
+    case VIEW_FLAG:
+        return json_boolean(*(const bool *)value);
+    case VIEW_INTEGER:
+        return json_integer(*(const int *)value);
+    case VIEW_CHOICE:
+        return json_string(view_choices(m)[*(const int *)value]);
+    case VIEW_FLOAT:
+        return file_json_float(*(const float *)value);
+    case VIEW_FLOATS:
+        return file_json_floats(value, 3);
+    case VIEW_POINT:
+        return scene_world_to_json(s->origin, value);
+    case VIEW_ORIGIN: /* so that what is in the world is restored to the bit */
+        return scene_world_to_json(s->origin, (const float[3]) { 0, 0, 0 });
+    case VIEW_FILE:
+    case VIEW_TEXT:
+        return file_json_string(value);
+    case VIEW_OBJECT:
+        return members_to_json(m->members, s, json_object());
+    case VIEW_ARRAY:
+        return members_to_json(m->members, s, json_array());
+    case VIEW_HIDDEN:
+        return hidden_to_json(&s->hidden);
+    case VIEW_MATERIALS:
+        return materials_to_json(&s->materials);
+    case VIEW_LIGHTS:
+        return lights_to_json(s);
+    }
+    return NULL;
+}
+
+/* Whether the value is what it is when absent. */
+static bool is_usual(const view_member *m, const view_settings *s) {
+    const void *value = (const char *)s + m->offset;
+    return m->type == VIEW_TEXT     ? *(const char *)value == '\0'
+           : m->type == VIEW_FLOAT  ? *(const float *)value == 0
+           : m->type == VIEW_ORIGIN ? scene_origin_is_0(s->origin)
+           : m->type == VIEW_HIDDEN ? s->hidden.count == 0
+                                    : *(const int *)value == m->absent;
+}
+
+/* Adds the members to an object or an array, and takes it. */
+static json_t *members_to_json(const view_member *members, const view_settings *s, json_t *to) {
+    for (const view_member *m = members; m->name; m++)
+        if (json_is_array(to))
+            to = file_json_append(to, value_to_json(m, s));
+        else if (!(m->traits & VIEW_UNUSUAL && is_usual(m, s)))
+            to = file_json_with(to, m->name, value_to_json(m, s));
+    return to;
+}
+
+json_t *view_settings_to_json(const view_settings *s) {
+    return members_to_json(settings_members, s, json_object());
 }
 
 /* --- from JSON -------------------------------------------------------------------------------- */
 
-static bool read_int(const json_t *object, const char *name, int minimum, int maximum, int *value) {
-    double number;
-    if (!file_json_number(json_object_get(object, name), minimum, maximum, &number) ||
-        number != floor(number))
-        return false;
-    *value = (int)number;
-    return true;
-}
-
-static bool read_float(const json_t *object, const char *name, double minimum, double maximum,
-                       float *value) {
-    double number;
-    /* limits in float, so that the float nearest to a limit is accepted */
-    if (!file_json_number(json_object_get(object, name), (double)(float)minimum,
-                          (double)(float)maximum, &number))
-        return false;
-    *value = (float)number;
-    return true;
-}
-
-static bool read_floats(const json_t *object, const char *name, double minimum, double maximum,
-                        float value[3]) {
-    double numbers[3];
-    if (!file_json_numbers(json_object_get(object, name), 3, minimum, (double)(float)maximum,
-                           numbers))
-        return false;
-    for (int i = 0; i < 3; i++)
-        value[i] = (float)numbers[i];
-    return true;
-}
-
-static bool read_choice(const json_t *object, const char *name, const char *const *choices,
-                        int *value) {
-    const json_t *item = json_object_get(object, name);
-    const int found = json_is_string(item) ? view_find_name(choices, json_string_value(item)) : -1;
-    *value = found < 0 ? *value : found;
-    return found >= 0;
-}
-
-/* Reads a choice, or returns `absent` if the object does not have it. */
-static bool read_choice_or(const json_t *object, const char *name, const char *const *choices,
-                           int absent, int *value) {
-    *value = absent;
-    return !json_object_get(object, name) || read_choice(object, name, choices, value);
-}
-
-/* Reads the up axis; absent means that nothing is rotated. */
-static bool read_up(const json_t *root, int *up) {
-    return read_choice_or(root, "up", scene_up_names, SCENE_UP_Y, up);
-}
-
-static bool read_leaves(const json_t *root, int *leaves) {
-    return read_choice_or(root, "leaves", scene_leaves_names, SCENE_LEAVES_TRANSLUCENT, leaves);
-}
-
-/* Reads the variant; absent means the materials of the scene's file. */
-static bool read_variant(const json_t *root, char variant[SCENE_NAME_SIZE]) {
-    const json_t *item = json_object_get(root, "variant");
-    if (item && (!json_is_string(item) || strlen(json_string_value(item)) >= SCENE_NAME_SIZE))
-        return false;
-    strcpy(variant, item ? json_string_value(item) : "");
-    return true;
-}
-
-/* Reads the tone curve, which screenshots of early versions lack. */
-static bool read_tone(const json_t *root, int *tone) {
-    return read_choice_or(root, "tone", image_tone_names(), 0, tone);
-}
-
-/* Reads whether there are shadows, which screenshots of early versions lack. */
-static bool read_shadows(const json_t *root, bool *shadows) {
-    const json_t *item = json_object_get(root, "shadows");
-    *shadows = json_is_true(item);
-    return !item || json_is_boolean(item);
-}
-
-/* Reads how often light bounces; absent means not at all. */
-static bool read_bounces(const json_t *root, int *bounces) {
-    return !json_object_get(root, "bounces") ||
-           read_int(root, "bounces", 0, TRANSFER_BOUNCES_MAX, bounces);
-}
-
-/* Reads the ground, which screenshots of early versions lack. */
-static bool read_ground(const json_t *root, int *ground) {
-    return read_choice_or(root, "ground", environment_ground_names, ENVIRONMENT_GROUND_OFF, ground);
-}
-
-/* Reads the origin; absent means 0. */
-static bool read_origin(const json_t *root, double origin[3]) {
-    const double far = (double)LMP_LENGTH_MAX;
-    const json_t *item = json_object_get(root, "origin");
-    if (item && !file_json_numbers(item, 3, -far, far, origin))
-        return false;
-    for (int k = 0; k < 3; k++)
-        origin[k] += 0.0; /* turns -0 into 0 */
-    return true;
-}
-
-static bool read_camera(const json_t *root, const double origin[3], scene_camera *camera) {
-    const double far = (double)LMP_LENGTH_MAX;
-    const json_t *object = json_object_get(root, "camera");
-    return scene_read_world(json_object_get(object, "eye"), origin, camera->eye) &&
-           scene_read_world(json_object_get(object, "target"), origin, camera->target) &&
-           read_floats(object, "up", -far, far, camera->up) &&
-           read_float(object, "fov", 0.001, 3.1, &camera->fov) &&
-           (!json_object_get(object, "height") ||
-            read_float(object, "height", 1e-6, far, &camera->height));
-}
-
-static bool read_shading(const json_t *object, view_shading *shading) {
-    int method, window;
-    if (!read_choice(object, "method", method_names(), &method) ||
-        !read_choice(object, "window", method_window_names(), &window))
-        return false;
-    shading->method = (method_kind)method;
-    shading->window = (lmp_window)window;
-    return read_int(object, "bands", 1, method_table[shading->method].bands_max[DEVICE_AUTO],
-                    &shading->bands);
-}
-
-static bool read_both_shadings(const json_t *root, view_shading both[2]) {
-    const json_t *array = json_object_get(root, "looks");
-    return json_array_size(array) == 2 && read_shading(json_array_get(array, 0), &both[0]) &&
-           read_shading(json_array_get(array, 1), &both[1]);
-}
-
-static bool read_lights(const json_t *root, view_settings *s) {
-    const json_t *array = json_object_get(root, "lights");
+static bool read_lights(json_t *array, view_settings *s) {
     const size_t count = json_array_size(array);
     scene_light_error wrong;
     bool ok = json_is_array(array) && count <= SCENE_LIGHTS_MAX;
@@ -285,8 +239,8 @@ static bool read_lights(const json_t *root, view_settings *s) {
     return ok;
 }
 
-static bool read_materials(const json_t *root, view_settings *s) {
-    json_t *array = json_object_get(root, "materials"), *item;
+static bool read_materials(json_t *array, view_settings *s) {
+    json_t *item;
     size_t i;
     if (!json_is_array(array) || json_array_size(array) > RENDER_TABLES_MAX)
         return false;
@@ -304,78 +258,155 @@ static bool read_materials(const json_t *root, view_settings *s) {
     return true;
 }
 
-/* Reads which nodes are hidden: none if that is absent. */
-static bool read_hidden(const json_t *root, view_settings *s) {
-    json_t *array = json_object_get(root, "hidden"), *item;
+static bool read_hidden(json_t *array, view_hidden *hidden) {
+    json_t *item;
     double least = 0, range[2];
     size_t i;
-    if (array && (!json_is_array(array) || json_array_size(array) > VIEW_HIDDEN_MAX))
+    if (!json_is_array(array) || json_array_size(array) > VIEW_HIDDEN_MAX)
         return false;
     json_array_foreach (array, i, item) {
         if (!file_json_numbers(item, 2, least, UINT32_MAX - 1, range) || range[1] < range[0] ||
             range[0] != floor(range[0]) || range[1] != floor(range[1]))
             return false;
-        s->hidden[s->hidden_count++] = (view_range) { (uint32_t)range[0], (uint32_t)range[1] };
+        hidden->ranges[hidden->count++] = (view_range) { (uint32_t)range[0], (uint32_t)range[1] };
         least = range[1] + 2;
     }
     return true;
 }
 
-static bool read_path(const json_t *object, const char *member, char name[VIEW_PATH_SIZE]) {
-    const json_t *item = json_object_get(object, member);
-    if (!json_is_string(item) || strlen(json_string_value(item)) >= VIEW_PATH_SIZE ||
-        file_is_standard_input(json_string_value(item)))
+/* Reads a text of fewer bytes than `size`. */
+static bool read_text(const json_t *item, size_t size, char *text) {
+    if (!json_is_string(item) || strlen(json_string_value(item)) >= size)
         return false;
-    strcpy(name, json_string_value(item));
+    strcpy(text, json_string_value(item));
     return true;
 }
 
-/* Reads the environment, which screenshots of early versions lack. */
-static bool read_environment(const json_t *root, view_settings *s) {
-    const json_t *object = json_object_get(root, "environment");
-    if (!object)
-        strcpy(s->environment, "none");
-    return !object ||
-           (read_path(object, "name", s->environment) &&
-            read_float(object, "rotation", -360, 360, &s->environment_rotation) &&
-            read_float(object, "strength", 0, ENVIRONMENT_STRENGTH_MAX, &s->environment_strength));
+static bool read_integer(const view_member *m, const json_t *item, int *value) {
+    double number;
+    if (!file_json_number(item, m->range[0], m->range[1], &number) || number != floor(number))
+        return false;
+    *value = (int)number;
+    return true;
+}
+
+static bool read_floats(const view_member *m, const json_t *item, int count, float *values) {
+    double numbers[3];
+    /* limits in float, so that the float nearest to a limit is accepted */
+    const double least = (double)(float)m->range[0], most = (double)(float)m->range[1];
+    if (!(count == 1 ? file_json_number(item, least, most, numbers)
+                     : file_json_numbers(item, (size_t)count, least, most, numbers)))
+        return false;
+    for (int i = 0; i < count; i++)
+        values[i] = (float)numbers[i];
+    return true;
+}
+
+static bool read_choice(const view_member *m, const json_t *item, int *value) {
+    const int found =
+        json_is_string(item) ? view_find_name(view_choices(m), json_string_value(item)) : -1;
+    *value = found < 0 ? *value : found;
+    return found >= 0;
+}
+
+static bool read_origin(const view_member *m, const json_t *item, double origin[3]) {
+    if (!file_json_numbers(item, 3, m->range[0], m->range[1], origin))
+        return false;
+    for (int k = 0; k < 3; k++)
+        origin[k] += 0.0; /* turns -0 into 0 */
+    return true;
+}
+
+static const char *read_members(const view_member *members, const json_t *from, view_settings *s);
+
+bool view_read_member(const view_member *m, json_t *item, view_settings *s) {
+    void *value = (char *)s + m->offset;
+    switch (m->type) {
+    case VIEW_FLAG:
+        *(bool *)value = json_is_boolean(item) ? json_is_true(item) : *(bool *)value;
+        return json_is_boolean(item);
+    case VIEW_INTEGER:
+        return read_integer(m, item, value);
+    case VIEW_CHOICE:
+        return read_choice(m, item, value);
+    case VIEW_FLOAT:
+        return read_floats(m, item, 1, value);
+    case VIEW_FLOATS:
+        return read_floats(m, item, 3, value);
+    case VIEW_POINT:
+        return scene_read_world(item, s->origin, value);
+    case VIEW_ORIGIN:
+        return read_origin(m, item, s->origin);
+    case VIEW_FILE:
+        return !(json_is_string(item) && file_is_standard_input(json_string_value(item))) &&
+               read_text(item, VIEW_PATH_SIZE, value);
+    case VIEW_TEXT:
+        return read_text(item, SCENE_NAME_SIZE, value);
+    case VIEW_OBJECT:
+        return !read_members(m->members, item, s);
+    case VIEW_ARRAY:
+        return json_array_size(item) == 2 && !read_members(m->members, item, s);
+    case VIEW_HIDDEN:
+        return read_hidden(item, &s->hidden);
+    case VIEW_MATERIALS:
+        return read_materials(item, s);
+    case VIEW_LIGHTS:
+        return read_lights(item, s);
+    }
+    return false;
+}
+
+/* Reads all members; returns the name of one that is wrong, or NULL. */
+static const char *read_members(const view_member *members, const json_t *from, view_settings *s) {
+    for (const view_member *m = members; m->name; m++) {
+        json_t *item = json_is_array(from) ? json_array_get(from, (size_t)(m - members))
+                                           : json_object_get(from, m->name);
+        const bool absent = !item && m->traits & (VIEW_OPTIONAL | VIEW_UNUSUAL);
+        if (absent && m->absent != 0)
+            *(int *)((char *)s + m->offset) = m->absent;
+        else if (!absent && !view_read_member(m, item, s))
+            return m->name;
+    }
+    return NULL;
+}
+
+int view_bands_max(const view_shading *shading) {
+    return method_table[shading->method].bands_max[DEVICE_AUTO];
+}
+
+void view_hold_bands(view_shading *shading) {
+    const int most = view_bands_max(shading);
+    shading->bands = shading->bands < 1 ? 1 : shading->bands > most ? most : shading->bands;
 }
 
 bool view_settings_from_json(const json_t *root, const char *subject, view_settings *s,
                              base_error *error) {
     memset(s, 0, view_settings_size(s));
-    int split = 0;
-    const char *wrong = !json_is_object(root)                                          ? "settings"
-                        : !read_path(root, "scene", s->scene)                          ? "scene"
-                        : !read_up(root, &s->up)                                       ? "up"
-                        : !read_leaves(root, &s->leaves)                               ? "leaves"
-                        : !read_variant(root, s->variant)                              ? "variant"
-                        : !read_int(root, "width", 1, IMAGE_SIZE_MAX, &s->width)       ? "width"
-                        : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
-                        : !read_int(root, "samples", 1, VIEW_SAMPLES_MAX, &s->samples) ? "samples"
-                        : !read_shadows(root, &s->shadows)                             ? "shadows"
-                        : !read_bounces(root, &s->bounces)                             ? "bounces"
-                        : !read_ground(root, &s->ground)                               ? "ground"
-                        : !read_float(root, "exposure", 1e-30, 1e30, &s->exposure)     ? "exposure"
-                        : !read_tone(root, &s->tone)                                   ? "tone"
-                        : !read_floats(root, "background", 0, 1e30, s->background) ? "background"
-                        : !read_environment(root, s)                               ? "environment"
-                        : !read_origin(root, s->origin)                            ? "origin"
-                        : !read_camera(root, s->origin, &s->camera)                ? "camera"
-                        : !read_both_shadings(root, s->shading)                    ? "looks"
-                        : !read_choice(root, "split", view_split_names, &split)    ? "split"
-                        : !read_float(root, "divider", 0, 1, &s->divider)          ? "divider"
-                        : !read_hidden(root, s)                                    ? "hidden"
-                        : !read_materials(root, s)                                 ? "materials"
-                        : !read_lights(root, s)                                    ? "lights"
-                                                                                   : NULL;
+    const char *wrong = json_is_object(root) ? read_members(settings_members, root, s) : "settings";
+    if (!json_object_get(root, "environment"))
+        strcpy(s->environment.name, "none");
+    for (int i = 0; i < 2 && !wrong; i++)
+        wrong = s->shading[i].bands > view_bands_max(&s->shading[i]) ? "looks" : NULL;
     if (!wrong && (long)s->width * s->height > IMAGE_PIXELS_MAX)
         wrong = "width";
-    s->split = (gpu_split)split;
     if (!wrong)
         return true;
     memset(s, 0, view_settings_size(s));
     return base_fail(error, subject, "has settings with invalid \"%s\"", wrong);
+}
+
+const view_member *view_find_member(const char *path) {
+    for (const view_member *m = settings_members;; m = m->members) {
+        const size_t length = strcspn(path, "/");
+        while (m->name && (strlen(m->name) != length || strncmp(m->name, path, length) != 0))
+            m++;
+        if (!m->name || m->traits & VIEW_FIXED)
+            return NULL;
+        path += length;
+        if (!m->members)
+            return *path ? NULL : m;
+        path += *path == '/';
+    }
 }
 
 /* --- screenshots ------------------------------------------------------------------------------ */
@@ -420,13 +451,14 @@ static bool check_names(const view_settings *s, const char *shot, const view_sho
     if (!options->scene && scene_is_file(s->scene) &&
         !check_name(shot, "scene", s->scene, strlen(s->scene), error))
         return false;
-    if (s->environment[0] && environment_is_file(s->environment) &&
-        !check_name(shot, "environment", s->environment, strlen(s->environment), error))
+    if (s->environment.name[0] && environment_is_file(s->environment.name) &&
+        !check_name(shot, "environment", s->environment.name, strlen(s->environment.name), error))
         return false;
-    for (int i = 0; i < s->material_count; i++) {
+    for (int i = 0; i < s->materials.count; i++) {
         size_t length;
-        const char *const file = material_file_named(strchr(s->materials[i], '=') + 1, &length);
-        if (file && !is_replaced(options->materials, s->materials[i]) &&
+        const char *const file =
+            material_file_named(strchr(s->materials.texts[i], '=') + 1, &length);
+        if (file && !is_replaced(options->materials, s->materials.texts[i]) &&
             !check_name(shot, "material", file, length, error))
             return false;
     }

@@ -27,6 +27,24 @@ typedef struct view_range {
     uint32_t first, last;
 } view_range;
 
+typedef struct view_hidden {
+    int count;
+    view_range ranges[VIEW_HIDDEN_MAX]; /* ascending, apart (nodes.h) */
+} view_hidden;
+
+/* The environment, as in environment_options. */
+typedef struct view_environment {
+    char name[VIEW_PATH_SIZE];
+    float rotation, strength;
+    int ground; /* environment_ground */
+} view_environment;
+
+/* The replaced materials of the scene. */
+typedef struct view_replacements {
+    int count;
+    char texts[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE]; /* NAME=MATERIAL */
+} view_replacements;
+
 typedef struct view_settings {
     char scene[VIEW_PATH_SIZE];
     int up, leaves;                /* as in scene_options */
@@ -35,24 +53,81 @@ typedef struct view_settings {
     int samples; /* per pixel */
     bool shadows;
     int bounces;    /* of light between surfaces; 0: none */
-    int ground;     /* environment_ground */
     float exposure; /* a factor on radiance */
     int tone;       /* a row of image_tones */
     float background[3];
-    char environment[VIEW_PATH_SIZE]; /* as in environment_options */
-    float environment_rotation, environment_strength;
+    view_environment environment;
     double origin[3]; /* in the world; camera and lights are relative to it, as the scene's are */
     scene_camera camera;
     view_shading shading[2]; /* the second is for a split image */
     gpu_split split;
-    float divider; /* as a fraction of the width */
-    int hidden_count;
-    view_range hidden[VIEW_HIDDEN_MAX]; /* what is not shown: ascending, apart (nodes.h) */
-    int material_count;
-    char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE]; /* NAME=MATERIAL */
+    float divider;      /* as a fraction of the width */
+    view_hidden hidden; /* what follows is edited, undone and redone */
+    view_replacements materials;
     size_t light_count;
     scene_light lights[SCENE_LIGHTS_MAX];
 } view_settings;
+
+/* --- members: one row of a table says how each is read, written, set and shown ------------------
+ */
+
+typedef enum view_type {
+    VIEW_FLAG,    /* bool */
+    VIEW_INTEGER, /* int */
+    VIEW_CHOICE,  /* int or an enumeration: the index of a name */
+    VIEW_FLOAT,
+    VIEW_FLOATS, /* three */
+    VIEW_POINT,  /* float[3], in the world in JSON */
+    VIEW_ORIGIN, /* double[3] */
+    VIEW_FILE,   /* char[VIEW_PATH_SIZE], but never standard input */
+    VIEW_TEXT,   /* char[SCENE_NAME_SIZE] */
+    VIEW_OBJECT,
+    VIEW_ARRAY, /* an object for each side */
+    VIEW_HIDDEN,
+    VIEW_MATERIALS,
+    VIEW_LIGHTS
+} view_type;
+
+/* What else there is to a member, as bits. */
+enum {
+    VIEW_OPTIONAL = 1, /* screenshots of early versions lack it */
+    VIEW_UNUSUAL = 2,  /* written only where it is not what it is when absent */
+    VIEW_FIXED = 4     /* not set by its path */
+};
+
+typedef struct view_member {
+    const char *name; /* in its object; NULL ends a list */
+    view_type type;
+    size_t offset; /* of its value in the settings */
+    unsigned traits;
+    double range[2];
+    int absent; /* the value of a choice that is absent; all else is 0 then */
+    const char *const *choices, *const *(*list)(void); /* of VIEW_CHOICE; list: returns them */
+    const struct view_member *members;                 /* of objects and arrays */
+} view_member;
+
+/* Finds the member of a path, such as "looks/0/bands"; returns NULL if nothing of that name can be
+ * set. */
+const view_member *view_find_member(const char *path);
+
+/* Returns the names that a choice is from, NULL-terminated. */
+const char *const *view_choices(const view_member *member);
+
+struct json_t;
+
+/* Reads the value of a member. If it is out of range, what can be set stays as it was. */
+bool view_read_member(const view_member *member, struct json_t *item, view_settings *settings);
+
+/* --- all of them ------------------------------------------------------------------------------ */
+
+/* Returns the most bands that the method of a side has; the other function takes back more. */
+int view_bands_max(const view_shading *shading);
+void view_hold_bands(view_shading *shading);
+
+/* Whether a side's method reads preintegrated lobes and materials. */
+static inline bool view_is_preintegrated(const view_shading *shading) {
+    return method_table[shading->method].reads & METHOD_READS_PREINTEGRATED;
+}
 
 /* Returns how many sides the image has. */
 static inline int view_sides(const view_settings *settings) {
@@ -84,7 +159,6 @@ const char *view_material_of(const view_settings *settings, const char *material
 /* Moves camera and lights to another origin. */
 void view_settings_rebase(view_settings *settings, const double origin[3]);
 
-struct json_t;
 struct json_t *view_settings_to_json(const view_settings *settings);
 
 /* Reads and checks every number; on failure *settings is zero, and the message names the

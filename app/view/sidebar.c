@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* sidebar.c - every value as a field, and every action as a button. */
-#include "app/render/renderer/bounces.h"
 #include "app/scene/node.h"
 #include "app/scene/vector.h"
 #include "app/scene/world.h"
@@ -57,10 +56,10 @@ static void set_numbers(view_state *s, const char *path, const float *numbers, i
     set(s, path, text);
 }
 
-static void put_number(view_state *s, const char *name, const char *path, float value, float most,
-                       float step) {
-    if (ui_numbers(name, &value, 1, 0, most, step))
-        set_numbers(s, path, &value, 1);
+static void put_choice(view_state *s, const char *name, const char *path,
+                       const char *const *choices, int chosen) {
+    if (ui_choice(name, choices, &chosen))
+        set(s, path, choices[chosen]);
 }
 
 static void put_flag(view_state *s, const char *name, const char *path, bool on) {
@@ -76,14 +75,40 @@ static void put_integer(view_state *s, const char *name, const char *path, int v
     }
 }
 
-static void put_choice(view_state *s, const char *name, const char *path,
-                       const char *const *choices, int chosen) {
-    if (ui_choice(name, choices, &chosen))
-        set(s, path, choices[chosen]);
+static void put_number(view_state *s, const char *name, const char *path, float value, float least,
+                       float most, float step) {
+    if (ui_numbers(name, &value, 1, least, most, step))
+        set_numbers(s, path, &value, 1);
 }
 
-/* --- files, camera, materials, time
- * ------------------------------------------------------------------ */
+/* Puts a member of the settings in its range; numbers are dragged by `step` a pixel. */
+static void put_member(view_state *s, const char *name, const char *path, float step) {
+    char text[VIEW_PATH_SIZE];
+    const view_member *m = view_find_member(path);
+    const void *at = (const char *)&s->now + m->offset;
+    switch (m->type) {
+    case VIEW_FLAG:
+        put_flag(s, name, path, *(const bool *)at);
+        break;
+    case VIEW_INTEGER:
+        put_integer(s, name, path, *(const int *)at, (int)m->range[0], (int)m->range[1]);
+        break;
+    case VIEW_CHOICE:
+        put_choice(s, name, path, view_choices(m), *(const int *)at);
+        break;
+    case VIEW_FLOAT:
+        put_number(s, name, path, *(const float *)at, (float)m->range[0], (float)m->range[1], step);
+        break;
+    default:
+        snprintf(text, sizeof text, "%s", (const char *)at);
+        if (ui_line(name, text, sizeof text, false))
+            set(s, path, text);
+        break;
+    }
+}
+
+/* --- files, camera, materials, time ------------------------------------------------------------
+ */
 
 /* Lists the scenes of earlier runs, by their names before their folders. */
 static void put_files(viewer *v) {
@@ -160,7 +185,7 @@ static void put_camera(viewer *v) {
         }
         ui_list_end();
     }
-    put_number(s, "fov", "camera/fov", s->now.camera.fov, 3.1f, 0.005f);
+    put_member(s, "fov", "camera/fov", 0.005f);
 }
 
 /* Puts what a material looks like, and the factors of glTF, those of the scene unless such factors
@@ -222,7 +247,7 @@ static void put_materials(viewer *v) {
 static void put_time(viewer *v) {
     view_state *s = &v->state;
     put_choice(s, "path", "view/path", (const char *const *)s->path_names, s->path);
-    put_number(s, "seconds", "view/seconds", (float)s->seconds, 1e6f, 0.02f);
+    put_number(s, "seconds", "view/seconds", (float)s->seconds, 0, 1e6f, 0.02f);
     put_flag(s, "playing", "view/playing", s->playing);
 }
 
@@ -230,25 +255,22 @@ static void put_time(viewer *v) {
 
 static void put_side(view_state *s, int side) {
     const view_shading *shading = &s->now.shading[side];
-    const bool two = view_sides(&s->now) == 2;
     char path[32], name[32];
-    if (two)
+    if (view_sides(&s->now) == 2)
         ui_text(side ? "right" : "left");
     snprintf(name, sizeof name, "method##%d", side);
     snprintf(path, sizeof path, "looks/%d/method", side);
-    put_choice(s, name, path, method_names(), (int)shading->method);
+    put_member(s, name, path, 0);
     snprintf(name, sizeof name, "bands##%d", side);
     snprintf(path, sizeof path, "looks/%d/bands", side);
-    put_integer(s, name, path, shading->bands, 1,
-                method_table[shading->method].bands_max[DEVICE_AUTO]);
+    put_integer(s, name, path, shading->bands, 1, view_bands_max(shading));
     snprintf(name, sizeof name, "filter##%d", side);
     snprintf(path, sizeof path, "looks/%d/window", side);
-    put_choice(s, name, path, method_window_names(), (int)shading->window);
+    put_member(s, name, path, 0);
 }
 
 static void put_shading(viewer *v) {
     view_state *s = &v->state;
-    char around[VIEW_PATH_SIZE];
     for (int side = 0; side < view_sides(&s->now); side++)
         put_side(s, side);
     float stops = log2f(s->now.exposure);
@@ -256,24 +278,18 @@ static void put_shading(viewer *v) {
         const float exposure = exp2f(stops);
         set_numbers(s, "exposure", &exposure, 1);
     }
-    put_choice(s, "tone curve", "tone", image_tone_names(), s->now.tone);
-    put_flag(s, "shadows", "shadows", s->now.shadows);
-    put_integer(s, "bounces", "bounces", s->now.bounces, 0, TRANSFER_BOUNCES_MAX);
-    put_choice(s, "ground", "ground", environment_ground_names, s->now.ground);
-    snprintf(around, sizeof around, "%s", s->now.environment);
-    if (ui_line("environment", around, sizeof around, false))
-        set(s, "environment/name", around);
-    float degrees = s->now.environment_rotation;
-    if (ui_numbers("rotation", &degrees, 1, -360, 360, 1))
-        set_numbers(s, "environment/rotation", &degrees, 1);
-    put_number(s, "strength", "environment/strength", s->now.environment_strength,
-               (float)ENVIRONMENT_STRENGTH_MAX, 0.01f);
+    put_member(s, "tone curve", "tone", 0);
+    put_member(s, "shadows", "shadows", 0);
+    put_member(s, "bounces", "bounces", 0);
+    put_member(s, "ground", "ground", 0);
+    put_member(s, "environment", "environment/name", 0);
+    put_member(s, "rotation", "environment/rotation", 1);
+    put_member(s, "strength", "environment/strength", 0.01f);
 }
 
 static void put_compare(viewer *v) {
-    view_state *s = &v->state;
-    put_choice(s, "image", "split", view_split_names, (int)s->now.split);
-    put_number(s, "divider", "divider", s->now.divider, 1, 0.002f);
+    put_member(&v->state, "image", "split", 0);
+    put_member(&v->state, "divider", "divider", 0.002f);
 }
 
 /* --- lights ----------------------------------------------------------------------------------- */
@@ -311,7 +327,7 @@ static void put_world(view_state *s, const char *name, const char *path, const f
 }
 
 /* Puts numbers in the units of the file: a member may give another quantity than is kept. */
-static void put_member(view_state *s, const scene_light_member *m, float diagonal) {
+static void put_light_member(view_state *s, const scene_light_member *m, float diagonal) {
     char path[64];
     lmp_light light = s->now.lights[s->selected].emitter;
     const float unit = m->convert ? m->convert(&light, 1) : 1;
@@ -379,7 +395,7 @@ static void put_lights(viewer *v) {
     put_choice(s, "kind", path, kinds, (int)s->now.lights[s->selected].emitter.kind);
     const lmp_light_kind kind = s->now.lights[s->selected].emitter.kind;
     for (const scene_light_member *m = scene_light_kinds[kind].members; m->name; m++)
-        put_member(s, m, view_scene_diagonal(s->world));
+        put_light_member(s, m, view_scene_diagonal(s->world));
 }
 
 /* --- statistics ------------------------------------------------------------------------------- */

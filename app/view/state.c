@@ -101,9 +101,8 @@ void view_state_close(view_state *s) {
 static void begin_other(view_state *s) {
     strcpy(s->now.scene, s->other);
     s->other[0] = s->now.variant[0] = '\0';
-    memset(s->now.materials, 0, sizeof s->now.materials);
-    s->now.material_count = s->now.hidden_count = 0;
-    memset(s->now.hidden, 0, sizeof s->now.hidden);
+    memset(&s->now.materials, 0, sizeof s->now.materials);
+    memset(&s->now.hidden, 0, sizeof s->now.hidden);
     s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
     s->now.camera.near = s->now.camera.far = 0; /* it may fly past the file's planes */
     s->camera = 0;
@@ -176,15 +175,12 @@ bool view_state_replace_scene(view_state *s, const scene *world, view_tree *tree
 }
 
 void view_undo(view_state *s, int step) {
-    view_range hidden[VIEW_HIDDEN_MAX];
-    const int count = s->now.hidden_count;
-    memcpy(hidden, s->now.hidden, sizeof hidden);
+    const view_hidden before = s->now.hidden;
     if (!view_history_step(&s->history, step, &s->now, s->numbers)) {
         view_say(s, step < 0 ? "Nothing to undo" : "Nothing was undone");
         return;
     }
-    if (s->now.hidden_count != count || memcmp(hidden, s->now.hidden, sizeof hidden) != 0)
-        s->requests.nodes = true;
+    s->requests.nodes |= memcmp(&before, &s->now.hidden, sizeof before) != 0;
     s->lights_edited = true;
     memset(s->muted, 0, sizeof s->muted);
     if (s->selected >= (int)s->now.light_count)

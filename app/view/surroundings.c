@@ -4,25 +4,22 @@
 #include <string.h>
 
 bool view_surroundings_match(const view_surroundings *s, const view_settings *settings) {
-    return strcmp(s->name, settings->environment) == 0 &&
-           s->rotation == settings->environment_rotation &&
-           s->strength == settings->environment_strength && s->ground == settings->ground;
+    const view_environment *wanted = &settings->environment;
+    return strcmp(s->of.name, wanted->name) == 0 && s->of.rotation == wanted->rotation &&
+           s->of.strength == wanted->strength && s->of.ground == wanted->ground;
 }
 
 bool view_surroundings_open(view_surroundings *s, const view_settings *settings, const scene *world,
                             base_error *error) {
-    const environment_options options = { .name = settings->environment,
-                                          .rotation = settings->environment_rotation,
-                                          .strength = settings->environment_strength,
-                                          .ground = settings->ground };
+    const view_environment *of = &settings->environment;
+    const environment_options options = {
+        .name = of->name, .rotation = of->rotation, .strength = of->strength, .ground = of->ground
+    };
     environment_free(&s->around);
-    s->name[0] = '\0';
+    s->of.name[0] = '\0';
     if (!environment_open(&options, world, &s->around, error) ||
         !environment_extract_suns(&s->around, error))
         return false;
-    memcpy(s->name, settings->environment, sizeof s->name);
-    s->rotation = options.rotation;
-    s->strength = options.strength;
-    s->ground = options.ground;
+    s->of = *of;
     return true;
 }

@@ -8,9 +8,7 @@
 /* An environment and its name; zero: none. Free with environment_free(&around). */
 typedef struct view_surroundings {
     environment around;
-    char name[VIEW_PATH_SIZE]; /* what it was made from; empty: nothing */
-    float rotation, strength;
-    int ground;
+    view_environment of; /* what it was made from; without a name: nothing */
 } view_surroundings;
 
 /* Whether the environment is that of the settings. */

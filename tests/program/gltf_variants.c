@@ -136,7 +136,7 @@ static void a_screenshot_keeps_the_variant(void **state) {
     assert_non_null(after);
     strcpy(before->scene, "two.gltf");
     strcpy(before->variant, "late?night");
-    strcpy(before->environment, "none");
+    strcpy(before->environment.name, "none");
     before->width = before->height = before->samples = 1;
     before->exposure = 1;
     before->camera.fov = 1;

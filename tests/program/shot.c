@@ -126,7 +126,7 @@ static void write_part(const part *p, const char *file) {
     char text[512];
     snprintf(text, sizeof text, "%s%s%s", p->beginning, file, p->end);
     strcpy(state.now.scene, strcmp(p->name, "scene") == 0 ? text : "builtin:ball");
-    strcpy(state.now.environment, strcmp(p->name, "environment") == 0 ? text : "none");
+    strcpy(state.now.environment.name, strcmp(p->name, "environment") == 0 ? text : "none");
     const char *const material = strcmp(p->name, "material") == 0 ? text : NULL;
     assert_true(view_set_material(&state.now, "test_material", material));
     write_shot("shots/shot.png", 8, 8);
@@ -256,7 +256,7 @@ static void what_is_no_file_is_not_looked_for(void **unused) {
     assert_int_equal(chdir("/"), 0);
     for (size_t i = 0; i < sizeof materials / sizeof *materials; i++) {
         write_part(&parts[2], materials[i]);
-        strcpy(state.now.environment, "studio");
+        strcpy(state.now.environment.name, "studio");
         write_shot("shots/shot.png", 8, 8);
         assert_one_line(look_with("shots/shot.png", NULL, NULL), materials[i], "display");
     }
@@ -295,7 +295,7 @@ static bool open_part(const view_settings *s, int which, bool *outside) {
         }
     } else if (which == 1) {
         environment read;
-        if ((ok = environment_open(&(environment_options) { .name = s->environment, .strength = 1 },
+        if ((ok = environment_open(&(environment_options) { .name = s->environment.name, .strength = 1 },
                                    &world, &read, &error))) {
             *outside = read.light.rgb[0] > 1;
             environment_free(&read);

@@ -269,7 +269,7 @@ static void another_scene_starts_afresh(void **unused) {
     assert_string_equal(state.now.scene, "builtin:balls");
     assert_int_equal(state.now.up, SCENE_UP_Z);
     assert_int_equal(state.now.light_count, other.light_count);
-    assert_int_equal(state.now.material_count, 0);
+    assert_int_equal(state.now.materials.count, 0);
     assert_true(state.requests.expose && !state.other[0]);
     key("Ctrl+Z");
     assert_non_null(strstr(state.message, "Nothing"));

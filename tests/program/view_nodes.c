@@ -74,7 +74,7 @@ static void ranges_say_which_nodes_are_hidden(void **unused) {
             count += !hidden[node];
         }
         assert_int_equal(left->instance_count, count);
-        assert_memory_equal(copy.hidden, v.state.now.hidden, sizeof copy.hidden);
+        assert_memory_equal(&copy.hidden, &v.state.now.hidden, sizeof copy.hidden);
         view_part_free(left);
     }
     v.state.world = &world;
@@ -122,7 +122,7 @@ static void hidden_nodes_are_not_pointed_at(void **unused) {
     assert_int_equal(v.state.node, picked[0]);
     act("Isolate");
     assert_int_equal(part->instance_count, 1);
-    assert_int_equal(v.state.now.hidden_count, (picked[0] > 0) + (picked[0] + 1 < (long)count));
+    assert_int_equal(v.state.now.hidden.count, (picked[0] > 0) + (picked[0] + 1 < (long)count));
     act("Show all");
     assert_int_equal(part->instance_count, count);
 }
@@ -146,7 +146,7 @@ static void nodes_keep_their_numbers(void **unused) {
 static void actions_are_for_what_is_pointed_at(void **unused) {
     (void)unused;
     act("Hide");
-    assert_true(v.state.node < 0 && v.state.now.hidden_count == 1);
+    assert_true(v.state.node < 0 && v.state.now.hidden.count == 1);
     act("Show all");
     v.state.now.camera.eye[2] = 1e6f; /* looks past everything */
     v.state.now.camera.target[2] = 2e6f;
@@ -155,7 +155,7 @@ static void actions_are_for_what_is_pointed_at(void **unused) {
         act(names[i]);
         assert_non_null(strstr(v.state.message, "Select a node"));
     }
-    assert_int_equal(v.state.now.hidden_count, 0);
+    assert_int_equal(v.state.now.hidden.count, 0);
 }
 
 /* Hiding, isolating and showing are steps of undo, among those of lights. */
@@ -255,7 +255,7 @@ static void what_is_below_a_node_is_hidden_with_it(void **unused) {
     act("Hide");
     assert_int_equal(part->instance_count, 0);
     act("Hide");
-    assert_int_equal(v.state.now.hidden_count, 0);
+    assert_int_equal(v.state.now.hidden.count, 0);
 }
 
 static void an_instance_belongs_to_the_node_that_draws_it(void **unused) {

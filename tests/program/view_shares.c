@@ -50,7 +50,7 @@ static void open_sky(int sky, const char *name) {
     static view_settings under;
     base_error error = { "" };
     memcpy(&under, &settings, sizeof settings);
-    strcpy(under.environment, name);
+    strcpy(under.environment.name, name);
     assert_true(view_surroundings_open(&own.skies[sky], &under, &world, &error));
     environment *around = &own.skies[sky].around;
     assert_true(environment_project(around, settings.shading[0].bands, &error));
@@ -67,7 +67,7 @@ static void open_renderer(void) {
     own.renderer = renderer_create(&own.device, &error);
     assert_non_null(own.renderer);
     open_sky(0, "none");
-    open_sky(1, settings.environment);
+    open_sky(1, settings.environment.name);
     if (shading->method == METHOD_FIELD) {
         own.field = shade_field_create(&world, &options, shading->bands, &error);
         assert_non_null(own.field);
@@ -114,8 +114,8 @@ static void open_world(const char *name, const char *around, int method) {
     tree = view_tree_begin(&world, &error);
     assert_non_null(tree);
     strcpy(settings.scene, name);
-    strcpy(settings.environment, around);
-    settings.environment_strength = 1;
+    strcpy(settings.environment.name, around);
+    settings.environment.strength = 1;
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.samples = 4;

@@ -157,7 +157,7 @@ static void files_become_materials_where_they_are_dropped(void **unused) {
     const char *name = world.materials[world.meshes[hit.mesh].material].name;
     at(320, 240);
     view_handle(&state, &(view_event) { .kind = VIEW_DROP, .text = "none.binary" });
-    assert_int_equal(state.now.material_count, 0);
+    assert_int_equal(state.now.materials.count, 0);
     assert_non_null(strstr(state.message, "does not exist"));
     view_handle(&state, &(view_event) { .kind = VIEW_DROP, .text = "ggx:0.3" });
     assert_string_equal(view_material_of(&state.now, name), "ggx:0.3");
@@ -166,11 +166,11 @@ static void files_become_materials_where_they_are_dropped(void **unused) {
     assert_string_equal(view_material_of(&state.now, name), "ggx:0.3");
     key("t"); /* past the dropped material: the scene's own */
     assert_null(view_material_of(&state.now, name));
-    assert_int_equal(state.now.material_count, 0);
+    assert_int_equal(state.now.materials.count, 0);
     at(1, 1);
     state.now.camera.target[1] += 1000; /* toward the sky */
     view_handle(&state, &(view_event) { .kind = VIEW_DROP, .text = "ggx:0.3" });
-    assert_int_equal(state.now.material_count, 0);
+    assert_int_equal(state.now.materials.count, 0);
 }
 
 int main(void) {

@@ -253,7 +253,7 @@ static void settings_are_written_in_the_world(void **state) {
                              .height = 9,
                              .samples = 1,
                              .exposure = 1,
-                             .environment = "none",
+                             .environment.name = "none",
                              .origin = { 5e6, 100, -5e6 },
                              .camera = { .eye = { 0.1f, 0.2f, 0.3f },
                                          .target = { 0, 0, -1 },
