@@ -10,7 +10,7 @@ static unsigned char difference(unsigned char a, unsigned char b) {
 }
 
 /* Composes the sides into rgb8, which has the layout's size, as the sides have. */
-static void compose(const view_side sides[2], const gpu_layout *layout, unsigned char *rgb8) {
+static void compose(const view_side_image sides[2], const gpu_layout *layout, unsigned char *rgb8) {
     const size_t width = (size_t)layout->width, count = width * (size_t)layout->height;
     const unsigned char *first = sides[0].rgb8, *second = sides[1].rgb8;
     if (layout->split == GPU_SPLIT_NONE || !second) {
@@ -33,21 +33,21 @@ void view_images_free(view_images *images) {
 
 bool view_images_take(view_images *images, int number, any_renderer *renderer,
                       const render_frame *frame, const image_display *display, base_error *error) {
-    view_side *side = &images->sides[number];
+    view_side_image *side = &images->sides[number];
     if (images->screen && renderer->gl) {
         gpu_screen_take(images->screen, renderer->gl, number, display);
         return true;
     }
     free(side->rgb8);
-    *side = (view_side) { frame->width, frame->height,
-                          malloc(3 * (size_t)frame->width * (size_t)frame->height) };
+    *side = (view_side_image) { frame->width, frame->height,
+                                malloc(3 * (size_t)frame->width * (size_t)frame->height) };
     return side->rgb8 ? renderer_read_rgb8(renderer, display, side->rgb8, NULL, error)
                       : base_fail(error, NULL, "out of memory");
 }
 
 void view_images_put(view_images *images, bool good) {
     for (int i = 0; i < 2 && images->screen; i++) {
-        view_side *side = &images->sides[i];
+        view_side_image *side = &images->sides[i];
         if (good && side->rgb8)
             gpu_screen_put(images->screen, i, side->width, side->height, side->rgb8);
         free(side->rgb8);

@@ -7,15 +7,16 @@
 #include "app/render/renderer/renderer.h"
 #include "app/view/settings.h"
 
-typedef struct view_side {
+typedef struct view_side_image {
     int width, height;
     unsigned char *rgb8; /* rows from the top */
-} view_side;
+} view_side_image;
 
 /* The images of the sides; zero: none. */
 typedef struct view_images {
     gpu_screen *screen; /* owned; NULL: nothing can be shown */
-    view_side sides[2]; /* those of the CPU, until they are put on the screen, if there is one */
+    view_side_image
+        sides[2]; /* those of the CPU, until they are put on the screen, if there is one */
 } view_images;
 
 void view_images_free(view_images *images);

@@ -3,7 +3,6 @@
 #include "app/render/renderer/bounces.h"
 #include "app/render/renderer/shadows.h"
 #include "app/render/shade_field.h"
-#include "app/view/compose.h"
 #include "app/view/lobes.h"
 #include "app/view/materials.h"
 #include "app/view/preview.h"
@@ -19,11 +18,12 @@ enum { PREVIEW_TRIANGLES = 50000, PREVIEW_CELLS = 300 };
 /* The quality of an image: fine; coarse while the camera rests; coarse and with fewer triangles
  * while it moves. */
 typedef enum quality { FINE, RESTING, MOVING, QUALITIES } quality;
+enum { CPU = QUALITIES, RENDERERS };
 
 /* The renderers and the field of one side, and the materials that its renderers have. */
 typedef struct side {
-    any_renderer *renderers[QUALITIES], *cpu; /* on the GPU; on the CPU, for all qualities */
-    shade_field *field;                       /* for its method, or NULL */
+    any_renderer *renderers[RENDERERS]; /* on the GPU; on the CPU, for all qualities */
+    shade_field *field;                 /* for its method, or NULL */
     view_materials materials;
 } side;
 
@@ -66,9 +66,8 @@ view_compositor *view_compositor_create(const gpu_context *context, const scene 
 }
 
 static void close_side(side *own) {
-    for (int i = 0; i < QUALITIES; i++)
+    for (int i = 0; i < RENDERERS; i++)
         renderer_destroy(own->renderers[i]);
-    renderer_destroy(own->cpu);
     shade_field_destroy(own->field);
     view_materials_free(&own->materials);
     memset(own, 0, sizeof *own);
@@ -127,8 +126,8 @@ static bool has_materials(const view_compositor *s, const side *own, const view_
 
 static bool apply_materials(view_compositor *s, side *own, const view_materials *materials,
                             base_error *error) {
-    bool ok = !own->cpu || override_apply(&materials->made, s->world, own->cpu, error);
-    for (int i = 0; i < QUALITIES && ok; i++)
+    bool ok = true;
+    for (int i = 0; i < RENDERERS && ok; i++)
         ok = !own->renderers[i] ||
              override_apply(&materials->made, s->world, own->renderers[i], error);
     return ok;
@@ -201,28 +200,22 @@ static const trace_bvh *shared_tree(const view_compositor *s) {
     return s->tree ? view_tree_wait(s->tree) : NULL;
 }
 
-static bool open_cpu(view_compositor *s, side *own, base_error *error) {
-    if (own->cpu)
-        return true;
-    if (!s->cpu.cpu && !render_device_open_cpu(s->world, shared_tree(s), &s->cpu, error))
-        return false;
-    own->cpu = renderer_create(&s->cpu, error);
-    return prepare_renderer(s, own, own->cpu, error);
-}
-
-static bool open_gpu(view_compositor *s, side *own, quality fineness, base_error *error) {
-    any_renderer **const renderer = &own->renderers[fineness];
-    render_device device = s->gpu;
+/* Opens one of a side's renderers: that of a quality on the GPU, or CPU. */
+static any_renderer *open_renderer(view_compositor *s, side *own, int which, base_error *error) {
+    any_renderer **const renderer = &own->renderers[which];
     if (*renderer)
-        return true;
-    const bool simplify = fineness == MOVING;
-    if (simplify && !s->preview.vertices &&
+        return *renderer;
+    if (which == CPU && !s->cpu.cpu &&
+        !render_device_open_cpu(s->world, shared_tree(s), &s->cpu, error))
+        return NULL;
+    if (which == MOVING && !s->preview.vertices &&
         !view_preview_make(s->world, PREVIEW_CELLS, &s->preview, error))
-        return false;
-    if (simplify)
+        return NULL;
+    render_device device = which == CPU ? s->cpu : s->gpu;
+    if (which == MOVING)
         device.scene = &s->preview;
     *renderer = renderer_create(&device, error);
-    return prepare_renderer(s, own, *renderer, error);
+    return prepare_renderer(s, own, *renderer, error) ? *renderer : NULL;
 }
 
 static bool has_areas(const view_settings *settings) {
@@ -250,9 +243,9 @@ bool view_compositor_does_without(const view_settings *settings) {
 static any_renderer *open_side(view_compositor *s, side *own, const view_settings *settings,
                                const view_shading *shading, quality fineness, base_error *error) {
     const bool shines = environment_shines(&s->surroundings.around);
-    if (!s->images.screen || device_of(settings, shading, shines, s->gpu.gl.software) == DEVICE_CPU)
-        return open_cpu(s, own, error) ? own->cpu : NULL;
-    return open_gpu(s, own, fineness, error) ? own->renderers[fineness] : NULL;
+    const bool on_cpu =
+        !s->images.screen || device_of(settings, shading, shines, s->gpu.gl.software) == DEVICE_CPU;
+    return open_renderer(s, own, on_cpu ? CPU : (int)fineness, error);
 }
 
 /* Whether the tables of all sides' materials fit their renderers. */
@@ -295,9 +288,7 @@ static bool prepare_environment(view_compositor *s, const view_settings *setting
         return true;
     for (int i = 0; i < 2; i++) {
         const side *own = &s->sides[i];
-        if (own->cpu)
-            renderer_set_environment(own->cpu, around);
-        for (int k = 0; k < QUALITIES; k++)
+        for (int k = 0; k < RENDERERS; k++)
             if (own->renderers[k])
                 renderer_set_environment(own->renderers[k], around);
     }
@@ -380,6 +371,17 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
            (s->surroundings.around.sun_count == 0 || add_suns(s, frame, error));
 }
 
+/* Prepares all that draws a side, whose tables are known to fit, but for its shadows. */
+static bool prepare_side(view_compositor *s, int number, const view_settings *settings, int divisor,
+                         render_frame *frame, base_error *error) {
+    side *own = &s->sides[number];
+    const view_shading *shading = &settings->shading[number];
+    return prepare_materials(s, own, settings, shading, error) &&
+           fill_frame(s, settings, shading, divisor, frame, error) &&
+           prepare_field(s, own, shading, frame, error) &&
+           prepare_bounces(s, settings, &frame->bounces, error);
+}
+
 /* --- beside the window ------------------------------------------------------------------------ */
 
 static bool has_gpu_renderers(const side *own) {
@@ -416,7 +418,7 @@ static bool run(view_compositor *s, const view_settings *settings, bool (*task)(
     return ok;
 }
 
-/* What to draw: sample `index`, or all samples if it is -1. */
+/* What to draw, as in view_compositor_draw. */
 typedef struct drawing {
     view_compositor *compositor;
     const view_settings *settings;
@@ -440,16 +442,12 @@ static bool draw_sides(void *of) {
     if (!prepare_environment(s, settings, error) || !fit_materials(s, settings, fineness, error))
         return false;
     for (int i = 0; i < sides; i++) {
-        side *own = &s->sides[i];
-        const view_shading *shading = &settings->shading[i];
         render_frame frame;
         render_times times;
-        any_renderer *const renderer = open_side(s, own, settings, shading, fineness, error);
-        if (!renderer || !prepare_materials(s, own, settings, shading, error) ||
-            !fill_frame(s, settings, shading, divisor, &frame, error) ||
-            !prepare_field(s, own, shading, &frame, error) ||
-            !prepare_shadows(s, settings, &frame.shadow, error) ||
-            !prepare_bounces(s, settings, &frame.bounces, error))
+        any_renderer *const renderer =
+            open_side(s, &s->sides[i], settings, &settings->shading[i], fineness, error);
+        if (!renderer || !prepare_side(s, i, settings, divisor, &frame, error) ||
+            !prepare_shadows(s, settings, &frame.shadow, error))
             return false;
         frame.keep_geometry = renderer->cpu ? rests : fineness == RESTING && s->gpu.gl.software;
         if (index < 0 ? !renderer_draw(renderer, &frame, &times, error)
@@ -471,29 +469,14 @@ static bool draw_sides(void *of) {
     return true;
 }
 
-static bool draw(view_compositor *s, const view_settings *settings, int divisor, int index,
-                 view_statistics *statistics, base_error *error) {
+bool view_compositor_draw(view_compositor *s, const view_settings *settings, int divisor, int index,
+                          view_statistics *statistics, base_error *error) {
     drawing d = { s, settings, divisor, index, { .width = 0 }, error };
     const bool ok = run(s, settings, draw_sides, &d);
     view_images_put(&s->images, ok);
     if (ok)
         *statistics = d.statistics;
     return ok;
-}
-
-bool view_compositor_draw(view_compositor *s, const view_settings *settings,
-                          view_statistics *statistics, base_error *error) {
-    return draw(s, settings, 1, -1, statistics, error);
-}
-
-bool view_compositor_preview(view_compositor *s, const view_settings *settings, int divisor,
-                             view_statistics *statistics, base_error *error) {
-    return draw(s, settings, divisor, 0, statistics, error);
-}
-
-bool view_compositor_refine(view_compositor *s, const view_settings *settings, int index,
-                            view_statistics *statistics, base_error *error) {
-    return draw(s, settings, 1, index, statistics, error);
 }
 
 /* What to expose, and how. */
@@ -509,17 +492,12 @@ static bool find_exposure(void *of) {
     view_compositor *s = e->compositor;
     const view_settings *settings = e->settings;
     base_error *error = e->error;
-    const view_shading *shading = &settings->shading[0];
     render_frame frame;
     any_renderer *renderer;
     image pixels;
-    side *own = &s->sides[0];
     if (!prepare_environment(s, settings, error) || !fit_materials(s, settings, FINE, error) ||
-        !(renderer = open_side(s, own, settings, shading, FINE, error)) ||
-        !prepare_materials(s, own, settings, shading, error) ||
-        !fill_frame(s, settings, shading, 1, &frame, error) ||
-        !prepare_field(s, own, shading, &frame, error) ||
-        !prepare_bounces(s, settings, &frame.bounces, error))
+        !(renderer = open_side(s, &s->sides[0], settings, settings->shading, FINE, error)) ||
+        !prepare_side(s, 0, settings, 1, &frame, error))
         return false;
     e->exposure = environment_exposure(&s->surroundings.around, settings->light_count);
     if (e->exposure > 0)
@@ -560,15 +538,11 @@ static bool open_split_shadows(view_compositor *s, size_t light_count, shadow *s
 bool view_compositor_split(view_compositor *s, const view_settings *settings, int number, int x,
                            int y, cpu_split *split, size_t *light_count, base_error *error) {
     side *own = &s->sides[number];
-    const view_shading *shading = &settings->shading[number];
     shadow *shadows[2] = { NULL, NULL };
     render_frame frame;
     render_pass around = { .run = NULL };
-    bool ok = prepare_environment(s, settings, error) && open_cpu(s, own, error) &&
-              prepare_materials(s, own, settings, shading, error) &&
-              fill_frame(s, settings, shading, 1, &frame, error) &&
-              prepare_field(s, own, shading, &frame, error) &&
-              prepare_bounces(s, settings, &frame.bounces, error);
+    bool ok = prepare_environment(s, settings, error) && open_renderer(s, own, CPU, error) &&
+              prepare_side(s, number, settings, 1, &frame, error);
     if (ok && settings->shadows &&
         (ok = open_split_shadows(s, frame.light_count, shadows, error))) {
         frame.shadow = shadow_pass(shadows[0]);
@@ -577,18 +551,13 @@ bool view_compositor_split(view_compositor *s, const view_settings *settings, in
     if (ok) {
         frame.samples = 1;
         *light_count = frame.light_count;
-        ok = renderer_split(own->cpu, &frame, x, y, &around, split, error);
+        ok = renderer_split(own->renderers[CPU], &frame, x, y, &around, split, error);
     }
     shadow_destroy(shadows[0]);
     shadow_destroy(shadows[1]);
     return ok;
 }
 
-void view_compositor_show(view_compositor *s, const view_settings *settings, float line, int seen) {
-    view_images_show(&s->images, settings, line, seen);
-}
-
-bool view_compositor_write(view_compositor *s, const view_settings *settings, const char *path,
-                           base_error *error) {
-    return view_images_write(&s->images, settings, path, error);
+const view_images *view_compositor_images(const view_compositor *s) {
+    return &s->images;
 }

@@ -3,8 +3,7 @@
 #ifndef LAMPION_VIEW_COMPOSITOR_H
 #define LAMPION_VIEW_COMPOSITOR_H
 
-#include "app/render/renderer/renderer.h"
-#include "app/view/settings.h"
+#include "app/view/compose.h"
 #include "app/view/tree.h"
 #include "app/view/work.h"
 
@@ -38,18 +37,12 @@ const char *view_compositor_pending(view_compositor *compositor, const view_sett
  * settings fails at once, so making the tables would be in vain. */
 bool view_compositor_fits(view_compositor *compositor, const view_settings *settings);
 
-/* Draws with all samples. */
-bool view_compositor_draw(view_compositor *compositor, const view_settings *settings,
-                          view_statistics *statistics, base_error *error);
-
-/* Draws a preview of 1 / `divisor` of width and height, with one sample and, on software, fewer
- * triangles. */
-bool view_compositor_preview(view_compositor *compositor, const view_settings *settings,
-                             int divisor, view_statistics *statistics, base_error *error);
-
-/* Adds sample `index` of settings->samples to the earlier samples of the same settings. */
-bool view_compositor_refine(view_compositor *compositor, const view_settings *settings, int index,
-                            view_statistics *statistics, base_error *error);
+/* Draws. With a divisor of 1, sample `index` of settings->samples is added to the earlier ones of
+ * the same settings; -1: all of them are drawn. With a greater divisor the image is a preview of
+ * 1 / `divisor` of width and height, with one sample, index 0, and, on software, fewer triangles.
+ */
+bool view_compositor_draw(view_compositor *compositor, const view_settings *settings, int divisor,
+                          int index, view_statistics *statistics, base_error *error);
 
 /* Determines the exposure that suits the settings. */
 bool view_compositor_expose(view_compositor *compositor, const view_settings *settings,
@@ -62,11 +55,7 @@ bool view_compositor_expose(view_compositor *compositor, const view_settings *se
 bool view_compositor_split(view_compositor *compositor, const view_settings *settings, int side,
                            int x, int y, cpu_split *split, size_t *light_count, base_error *error);
 
-/* Show the image drawn last in the window, as view_images_show does, or read it for a screenshot.
- */
-void view_compositor_show(view_compositor *compositor, const view_settings *settings, float line,
-                          int seen);
-bool view_compositor_write(view_compositor *compositor, const view_settings *settings,
-                           const char *path, base_error *error);
+/* Returns the images of the sides that were drawn last, to be shown or written. */
+const view_images *view_compositor_images(const view_compositor *compositor);
 
 #endif

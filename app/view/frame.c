@@ -19,8 +19,8 @@ bool view_steps_time(const viewer *v) {
 static void show(viewer *v) {
     const double began = view_window_clock();
     const view_settings *shown = v->good->width > 0 ? v->good : v->shown;
-    view_compositor_show(v->compositor, shown, (float)(2 * v->state.scale),
-                         v->state.sidebar ? (int)v->uncovered : 0);
+    view_images_show(view_compositor_images(v->compositor), shown, (float)(2 * v->state.scale),
+                     v->state.sidebar ? (int)v->uncovered : 0);
     ui_draw();
     v->over = v->laid;
     view_window_swap(v->window);
@@ -104,10 +104,8 @@ static bool draw(viewer *v, bool *worked, base_error *error) {
     v->fresh = v->held = false;
     v->draws = true;
     v->began = view_window_clock();
-    *worked =
-        preview
-            ? view_compositor_preview(v->compositor, v->drawn, v->divisor, &v->statistics, error)
-            : view_compositor_refine(v->compositor, v->drawn, v->sample, &v->statistics, error);
+    *worked = view_compositor_draw(v->compositor, v->drawn, preview ? v->divisor : 1,
+                                   preview ? 0 : v->sample, &v->statistics, error);
     v->draws = false;
     if (!*worked)
         return begin_again(v);

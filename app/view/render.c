@@ -27,8 +27,8 @@ bool view_render(view_settings *settings, const char *device, const char *path, 
                     open_context(settings, device, &context, error) &&
                     (compositor = view_compositor_create(context.display ? &context : NULL, part,
                                                          NULL, NULL, error)) &&
-                    view_compositor_draw(compositor, settings, &statistics, error) &&
-                    view_compositor_write(compositor, settings, path, error);
+                    view_compositor_draw(compositor, settings, 1, -1, &statistics, error) &&
+                    view_images_write(view_compositor_images(compositor), settings, path, error);
     view_compositor_destroy(compositor);
     gpu_context_destroy(&context);
     view_part_free(part);

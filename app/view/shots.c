@@ -22,14 +22,14 @@ static bool write_shot(viewer *v, const view_settings *settings, const char *pat
     bool ok = true;
     if (v->fresh || v->sample != settings->samples - 1) {
         v->shoots = true;
-        ok = view_compositor_draw(v->compositor, settings, &v->statistics, error);
+        ok = view_compositor_draw(v->compositor, settings, 1, -1, &v->statistics, error);
         v->sample = settings->samples - 1;
         v->fresh = !ok;
         v->shoots = v->state.requests.cancel = false;
         if (ok)
             memcpy(v->good, settings, view_settings_size(settings));
     }
-    return ok && view_compositor_write(v->compositor, settings, path, error);
+    return ok && view_images_write(view_compositor_images(v->compositor), settings, path, error);
 }
 
 /* Finds the first numbered name that no file has; returns false if all are taken. */

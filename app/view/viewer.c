@@ -75,7 +75,7 @@ static void wait_for_scene(viewer *v) {
     view_lay_out(v, NULL, false);
     if (v->laid == v->over)
         return;
-    view_compositor_show(v->compositor, &v->state.now, 0, 0);
+    view_images_show(view_compositor_images(v->compositor), &v->state.now, 0, 0);
     ui_draw();
     v->over = v->laid;
     view_window_swap(v->window);
