@@ -209,7 +209,7 @@ static bool draws_backs(const scene *s) {
  * a model in wide surroundings tell only whether these close above it, as a dome does. */
 static float find_sky(const scene *s, const scene_grid *grid, const scene_frame *frame) {
     lmp_vec3 above = vec_scale(vec_add(frame->subject.low, frame->subject.high), 0.5f);
-    above.y += 0.05f * vec_length(vec_sub(vec_load(s->maximum), vec_load(s->minimum)));
+    above.y += 0.05f * scene_diagonal(s);
     if (frame->subject.part)
         return scene_interior_closes(grid, above) ? 0.0f : 1.0f;
     return scene_interior_sky(grid, frame->quarter, draws_backs(s));

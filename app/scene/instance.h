@@ -61,6 +61,9 @@ void scene_triangle_positions(const scene *scene, size_t instance, uint32_t tria
 void scene_triangle(const scene *scene, size_t instance, uint32_t triangle,
                     scene_vertex corners[3]);
 
+/* Returns the diagonal of the box that the scene says it is in. */
+float scene_diagonal(const scene *scene);
+
 /* Finds the bounds of all positions. Returns false and leaves *minimum and *maximum alone if there
  * is no instance. */
 bool scene_bounds(const scene *scene, float minimum[3], float maximum[3]);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* measure.c - bounds and area of all instances of a scene. */
 #include "app/scene/instance.h"
+#include "app/scene/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,6 +21,10 @@ static void include_point(const float p[3], float minimum[3], float maximum[3]) 
         minimum[k] = fminf(minimum[k], p[k]);
         maximum[k] = fmaxf(maximum[k], p[k]);
     }
+}
+
+float scene_diagonal(const scene *s) {
+    return vec_length(vec_sub(vec_load(s->maximum), vec_load(s->minimum)));
 }
 
 bool scene_bounds(const scene *s, float minimum[3], float maximum[3]) {

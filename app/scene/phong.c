@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/phong.h"
+#include "app/scene/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,18 +8,14 @@
 #define METAL_SPECULAR_MIN        0.25f /* least specular color of a metal, absolute */
 #define METAL_SPECULAR_TO_DIFFUSE 2.0f  /* and least multiple of the diffuse color */
 
-static float brightest(const float color[3]) {
-    return fmaxf(color[0], fmaxf(color[1], color[2]));
-}
-
 static float clamp_unit(float x) {
     return fminf(fmaxf(x, 0.0f), 1.0f);
 }
 
 void phong_apply(const phong *from, scene_material *to) {
-    const float specular = brightest(from->specular);
+    const float specular = rgb_brightest(from->specular);
     const bool metal = specular >= METAL_SPECULAR_MIN &&
-                       specular > METAL_SPECULAR_TO_DIFFUSE * brightest(from->diffuse);
+                       specular > METAL_SPECULAR_TO_DIFFUSE * rgb_brightest(from->diffuse);
     for (int k = 0; k < 3; k++) {
         to->base_color[k] = clamp_unit(metal ? from->specular[k] : from->diffuse[k]);
         to->emission[k] = fmaxf(from->emission[k], 0.0f);

@@ -49,6 +49,11 @@ static inline lmp_rgb rgb_scale(lmp_rgb a, float s) {
     return (lmp_rgb) { a.r * s, a.g * s, a.b * s };
 }
 
+/* Returns the brightest channel of a color. */
+static inline float rgb_brightest(const float color[3]) {
+    return fmaxf(color[0], fmaxf(color[1], color[2]));
+}
+
 static inline float vec_dot(lmp_vec3 a, lmp_vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }

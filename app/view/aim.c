@@ -54,22 +54,17 @@ void view_choose_aim(view_state *s, int aim) {
              meanings[s->aim]);
 }
 
-static bool find_point(const view_state *s, view_ray *ray, view_hit *hit, lmp_vec3 *point) {
-    *hit = view_hit_at_pointer(s, ray);
-    *point = vec_add(ray->from, vec_scale(ray->direction, hit->distance));
-    return hit->mesh >= 0;
-}
-
 bool view_aim_begin(view_state *s) {
+    if (s->aim == VIEW_AIM_OFF || s->selected < 0)
+        return false;
     view_ray ray;
-    view_hit hit;
-    lmp_vec3 point;
-    if (s->aim == VIEW_AIM_OFF || s->selected < 0 || !find_point(s, &ray, &hit, &point))
+    const view_hit hit = view_hit_at_pointer(s, &ray);
+    if (hit.mesh < 0)
         return false;
     const scene_light shown = view_shown_light(s, s->selected);
     s->drag = VIEW_DRAG_AIM;
     s->grabbed = s->now.lights[s->selected];
-    s->aim_distance = vec_length(vec_sub(shown.emitter.position, point));
+    s->aim_distance = vec_length(vec_sub(shown.emitter.position, hit.point));
     s->grab = vec_sub(s->grabbed.emitter.position, shown.emitter.position);
     view_aim_follow(s);
     return true;
@@ -79,17 +74,12 @@ bool view_aim_begin(view_state *s) {
  * there. */
 void view_aim_follow(view_state *s) {
     view_ray ray;
-    view_hit hit;
-    lmp_vec3 point;
+    const view_hit hit = view_hit_at_pointer(s, &ray);
     scene_light moved = s->grabbed;
-    scene_light_error wrong;
-    if (!find_point(s, &ray, &hit, &point))
+    if (hit.mesh < 0)
         return;
     const lmp_vec3 direction = view_aim_direction(s->aim, hit.smooth, vec_scale(ray.direction, -1));
-    view_aim_light(&moved.emitter, point, direction, s->aim_distance);
+    view_aim_light(&moved.emitter, hit.point, direction, s->aim_distance);
     moved.emitter.position = vec_add(moved.emitter.position, s->grab);
-    if (!scene_light_check(&moved, &wrong))
-        return;
-    s->now.lights[s->selected] = moved;
-    s->lights_edited = true;
+    view_change_light(s, &moved);
 }

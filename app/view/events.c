@@ -21,12 +21,6 @@
 
 /* --- the pointer ------------------------------------------------------------------------------ */
 
-/* Returns the ray through the middle of the image. */
-static view_ray middle_ray(const view_state *s) {
-    return view_ray_through(&s->now.camera, s->now.width, s->now.height, 0.5 * s->now.width,
-                            0.5 * s->now.height);
-}
-
 static int light_at_pointer(const view_state *s) {
     static view_settings shown;
     const view_ray ray = view_pointer_ray(s);
@@ -51,7 +45,7 @@ static void grab_light(view_state *s, int index) {
         return;
     s->drag = VIEW_DRAG_LIGHT;
     s->selected = index;
-    const view_ray middle = middle_ray(s);
+    const view_ray middle = view_ray_at(s, 0.5 * s->now.width, 0.5 * s->now.height);
     s->grab_depth = vec_dot(vec_sub(shown.emitter.position, middle.from), middle.direction);
     s->grab_x = s->x - x;
     s->grab_y = s->y - y;
@@ -61,19 +55,13 @@ static void grab_light(view_state *s, int index) {
 /* Moves the light to the pointer, in the plane across the view where it was grabbed. Returns false,
  * without moving it, beyond the range of positions in files. */
 static bool drag_light(view_state *s) {
-    const scene_camera *camera = &s->now.camera;
-    const view_ray ray =
-        view_ray_through(camera, s->now.width, s->now.height, s->x - s->grab_x, s->y - s->grab_y);
-    const float along = vec_dot(ray.direction, middle_ray(s).direction);
+    const view_ray ray = view_ray_at(s, s->x - s->grab_x, s->y - s->grab_y);
+    const view_ray middle = view_ray_at(s, 0.5 * s->now.width, 0.5 * s->now.height);
+    const float along = vec_dot(ray.direction, middle.direction);
     const lmp_vec3 to = vec_add(ray.from, vec_scale(ray.direction, s->grab_depth / along));
     scene_light moved = s->now.lights[s->selected];
-    scene_light_error wrong;
     moved.emitter.position = vec_add(to, s->grab);
-    if (!scene_light_check(&moved, &wrong))
-        return false;
-    s->now.lights[s->selected] = moved;
-    s->lights_edited = true;
-    return true;
+    return view_change_light(s, &moved);
 }
 
 static bool on_divider(const view_state *s) {
@@ -169,27 +157,14 @@ static void scroll(view_state *s, double steps) {
 
 /* --- keys and files --------------------------------------------------------------------------- */
 
-static void press_key(view_state *s, const char *name) {
-    if (view_panel_take_key(s, name))
-        return;
-    for (const view_key *key = view_keys; key->key || key->shown; key++)
-        if (key->key && strcmp(key->key, name) == 0) {
-            key->act(s, key->argument);
-            return;
-        }
-}
-
-const view_key *view_find_action(const char *name) {
-    for (const view_key *row = view_keys; row->key || row->shown; row++)
-        if (row->name && strcmp(row->name, name) == 0)
-            return row;
-    return NULL;
-}
-
-static void act(view_state *s, const char *name) {
-    const view_key *row = view_find_action(name);
+static void act(view_state *s, const view_key *row) {
     if (row)
         row->act(s, row->argument);
+}
+
+static void press_key(view_state *s, const char *name) {
+    if (!view_panel_take_key(s, name))
+        act(s, view_find_key(name));
 }
 
 static void hold(view_state *s, char letter, bool down, bool fast) {
@@ -261,7 +236,7 @@ static void take_event(view_state *s, const view_event *event) {
         type(s, event->text);
         break;
     case VIEW_ACT:
-        act(s, event->text);
+        act(s, view_find_action(event->text));
         keep_dragged(s);
         break;
     case VIEW_SET:

@@ -60,7 +60,7 @@ static bool see_light(const view_state *s, sketch *k) {
     k->center = k->moves ? k->light.emitter.position : vec_load(s->now.camera.target);
     if (!project(s, k->center, &x, &y, &scale))
         return false;
-    k->ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, x, y);
+    k->ray = view_ray_at(s, x, y);
     k->pixel = (float)(s->scale / scale);
     return true;
 }
@@ -303,9 +303,8 @@ static void add_plumb_line(const sketch *k) {
     const view_hit hit = view_pick_surface(&down, k->state->tree);
     if (hit.mesh < 0)
         return;
-    const lmp_vec3 foot = at(k, down.direction, hit.distance);
-    add_line(k, VIEW_HANDLE_NONE, k->center, foot);
-    add_circle(k, VIEW_HANDLE_NONE, foot, down.direction, axes[0], KNOB * k->pixel);
+    add_line(k, VIEW_HANDLE_NONE, k->center, hit.point);
+    add_circle(k, VIEW_HANDLE_NONE, hit.point, down.direction, axes[0], KNOB * k->pixel);
 }
 
 /* Whether a surface lies between the eye and the light. */
@@ -535,7 +534,6 @@ void view_handle_follow(view_state *s) {
     const bool steps = s->held[6];
     scene_light changed = s->grabbed;
     lmp_light *light = &changed.emitter;
-    scene_light_error wrong;
     if (is_move(g->handle)) {
         if (!move_light(s, &ray, steps, light))
             return;
@@ -545,10 +543,7 @@ void view_handle_follow(view_state *s) {
     } else {
         resize_light(s, &ray, steps, light);
     }
-    if (!scene_light_check(&changed, &wrong))
-        return;
-    s->now.lights[s->selected] = changed;
-    s->lights_edited = true;
+    view_change_light(s, &changed);
 }
 
 /* --- what it tells ---------------------------------------------------------------------------- */

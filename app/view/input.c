@@ -75,7 +75,9 @@ static void type(viewer *v, const view_event *event) {
 
 /* Takes what there is to do while the first scene is read: to cancel it. */
 static void take_waiting(viewer *v, const view_event *event) {
-    static const char *const ends[] = { "Quit", "Escape", "Ctrl+B", "Ctrl+Q" };
+    const view_key *row = event->kind == VIEW_KEY   ? view_find_key(event->text)
+                          : event->kind == VIEW_ACT ? view_find_action(event->text)
+                                                    : NULL;
     if (event->kind == VIEW_MOVE)
         ui_move(event->x, event->y);
     if (event->kind == VIEW_PRESS || event->kind == VIEW_RELEASE) {
@@ -83,10 +85,8 @@ static void take_waiting(viewer *v, const view_event *event) {
         ui_press((int)event->button, event->kind == VIEW_PRESS);
         view_lay_out(v, NULL, false);
     }
-    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
-        if ((event->kind == VIEW_KEY || event->kind == VIEW_ACT) &&
-            strcmp(event->text, ends[i]) == 0)
-            v->state.requests.quit = true;
+    if (row && view_is_end(row))
+        v->state.requests.quit = true;
 }
 
 void view_take_event(void *to, const view_event *event) {

@@ -86,9 +86,9 @@ static void swap_sides(view_state *s, int unused) {
 /* --- time ------------------------------------------------------------------------------------- */
 
 static void change_path(view_state *s, int step) {
-    s->path = (s->path + step) % s->path_count;
+    s->paths.at = (s->paths.at + step) % s->paths.count;
     s->playing = true;
-    view_say(s, "Lights: %s", s->path_names[s->path]);
+    view_say(s, "Lights: %s", s->paths.names[s->paths.at]);
 }
 
 static void step_time(view_state *s, int step) {
@@ -137,17 +137,12 @@ static void change_material(view_state *s, int step) {
 
 static void frame_all(view_state *s, int unused) {
     (void)unused;
-    const lmp_vec3 lo = vec_load(s->world->minimum), hi = vec_load(s->world->maximum);
-    const float aspect = (float)s->now.width / (float)s->now.height;
-    view_frame(&s->now.camera, vec_scale(vec_add(lo, hi), 0.5f), 0.5f * vec_length(vec_sub(hi, lo)),
-               aspect);
+    view_frame_box(s, s->world->minimum, s->world->maximum);
 }
 
 static void first_camera(view_state *s, int unused) {
     (void)unused;
-    s->camera = 0;
-    s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
-    s->now.camera.near = s->now.camera.far = 0;
+    view_use_default_camera(s);
 }
 
 void view_use_camera(view_state *s, int index) {
@@ -183,9 +178,8 @@ static void request(view_state *s, int what) {
 static void toggle_framing(view_state *s, int unused) {
     (void)unused;
     s->walking = !s->walking;
-    s->now.camera =
-        scene_framed_camera(s->world, s->walking ? SCENE_FRAMING_INSIDE : SCENE_FRAMING_OUTSIDE,
-                            (float)s->now.width / (float)s->now.height);
+    s->now.camera = scene_framed_camera(
+        s->world, s->walking ? SCENE_FRAMING_INSIDE : SCENE_FRAMING_OUTSIDE, view_aspect(&s->now));
     view_say(s, s->walking ? "Inside: the left button looks around"
                            : "Outside: the left button goes around");
 }
@@ -312,6 +306,27 @@ const view_key view_keys[] = {
     { "Ctrl+Q", "Ctrl Q", "quit", REQUEST(quit), "Quit" },
     { NULL, NULL, NULL, NULL, 0, NULL },
 };
+
+const view_key *view_find_key(const char *key) {
+    for (const view_key *row = view_keys; row->key || row->shown; row++)
+        if (row->key && strcmp(row->key, key) == 0)
+            return row;
+    return NULL;
+}
+
+const view_key *view_find_action(const char *name) {
+    for (const view_key *row = view_keys; row->key || row->shown; row++)
+        if (row->name && strcmp(row->name, name) == 0)
+            return row;
+    return NULL;
+}
+
+bool view_is_end(const view_key *row) {
+    const size_t what = (size_t)row->argument;
+    return row->act == step_back ||
+           (row->act == request && (what == offsetof(view_state, requests.quit) ||
+                                    what == offsetof(view_state, requests.cancel)));
+}
 
 bool view_is_heading(const view_key *row) {
     return row->shown && !row->help;

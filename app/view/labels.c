@@ -78,7 +78,7 @@ static int fill_statistics(const viewer *v, view_row rows[STATISTICS_ROWS]) {
     }
     describe_lights(s, text, sizeof text);
     add_row(rows, &count, "Lights", "%s", text);
-    add_row(rows, &count, "Time", "%s %.2f s%s", s->path_names[s->path], s->seconds,
+    add_row(rows, &count, "Time", "%s %.2f s%s", s->paths.names[s->paths.at], s->seconds,
             s->playing ? "" : ", paused");
     if (told->frame_seconds > 0)
         add_row(rows, &count, "Moving", "%.0f ms a frame, %.1f a second", 1e3 * told->frame_seconds,

@@ -2,6 +2,7 @@
 #include "app/view/lights.h"
 #include "app/view/nodes.h"
 
+#include "app/scene/instance.h"
 #include "app/scene/vector.h"
 
 #include <math.h>
@@ -16,7 +17,7 @@
 #define FRAMED_RADIUS  0.1f  /* of the scene's diagonal, at least */
 
 float view_scene_diagonal(const scene *world) {
-    return fmaxf(vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum))), 1e-6f);
+    return fmaxf(scene_diagonal(world), 1e-6f);
 }
 
 static bool is_changed(const view_state *s, size_t index) {
@@ -67,10 +68,6 @@ static void brighten(float color[3], float by) {
         color[k] = fminf(color[k] * by, SCENE_COLOR_MAX);
 }
 
-static float brightest(const float color[3]) {
-    return fmaxf(color[0], fmaxf(color[1], color[2]));
-}
-
 /* Rotates a color by a fraction of the hue circle around the gray axis, on which red, green and
  * blue follow each other. */
 static void rotate_hue(float color[3], float by) {
@@ -81,13 +78,13 @@ static void rotate_hue(float color[3], float by) {
         const float across = root * (color[(k + 2) % 3] - color[(k + 1) % 3]);
         to[k] = fmaxf(0, color[k] * c + across * s + mean * (1 - c));
     }
-    const float scale = brightest(to) > 0 ? brightest(color) / brightest(to) : 1;
+    const float scale = rgb_brightest(to) > 0 ? rgb_brightest(color) / rgb_brightest(to) : 1;
     for (int k = 0; k < 3; k++)
         color[k] = to[k] * scale;
 }
 
 static void make_paler(float color[3], float by) {
-    const float most = brightest(color);
+    const float most = rgb_brightest(color);
     for (int k = 0; k < 3; k++)
         color[k] = fmaxf(0, color[k] + by * (most - color[k]));
 }
@@ -126,9 +123,8 @@ static lmp_light new_light(const view_state *s, lmp_light_kind kind) {
 
 static view_ray pointer_ray(const view_state *s) {
     const bool outside = s->x < 0 || s->y < 0;
-    return view_ray_through(&s->now.camera, s->now.width, s->now.height,
-                            outside ? 0.5 * s->now.width : s->x,
-                            outside ? 0.5 * s->now.height : s->y);
+    return view_ray_at(s, outside ? 0.5 * s->now.width : s->x,
+                       outside ? 0.5 * s->now.height : s->y);
 }
 
 /* Adds a light, and selects it. */
@@ -165,14 +161,12 @@ void view_add_light(view_state *s, int unused) {
     scene_light light = { .emitter = like_selected ? s->now.lights[s->selected].emitter
                                                    : new_light(s, scene_light_kind_default) };
     const float reach = vec_length(vec_sub(vec_load(s->now.camera.target), ray.from));
-    const float distance = hit.mesh >= 0 ? hit.distance : reach;
-    lmp_vec3 position = vec_add(ray.from, vec_scale(ray.direction, distance));
-    if (hit.mesh >= 0)
-        position = vec_add(position, vec_scale(hit.normal, 3 * scene_light_extent(&light.emitter)));
-    light.emitter.position = position;
+    light.emitter.position =
+        hit.mesh < 0
+            ? vec_add(ray.from, vec_scale(ray.direction, reach))
+            : vec_add(hit.point, vec_scale(hit.normal, 3 * scene_light_extent(&light.emitter)));
     if (hit.mesh >= 0 && !like_selected)
-        suit_surface(s, vec_add(ray.from, vec_scale(ray.direction, distance)), hit.normal,
-                     &light.emitter);
+        suit_surface(s, hit.point, hit.normal, &light.emitter);
     append(s, &light);
 }
 
@@ -246,8 +240,7 @@ void view_direct_light(view_state *s, int unused) {
         return;
     }
     if (scene_light_has(light, SCENE_LIGHT_POSITION) && hit.mesh >= 0)
-        direction = vec_sub(vec_add(ray.from, vec_scale(ray.direction, hit.distance)),
-                            light->emitter.position);
+        direction = vec_sub(hit.point, light->emitter.position);
     light->emitter.direction = vec_normalize(direction, light->emitter.direction);
     s->lights_edited = true;
 }
@@ -261,5 +254,5 @@ void view_frame_light(view_state *s, int unused) {
     const lmp_light *light = &s->now.lights[s->selected].emitter;
     const float extent = scene_light_extent(light),
                 radius = extent > 0 ? 10 * extent : FRAMED_RADIUS * view_scene_diagonal(s->world);
-    view_frame(&s->now.camera, light->position, radius, (float)s->now.width / (float)s->now.height);
+    view_frame(&s->now.camera, light->position, radius, view_aspect(&s->now));
 }

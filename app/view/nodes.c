@@ -96,9 +96,7 @@ void view_frame_node(view_state *s, int unused) {
     float lo[3], hi[3];
     if (node < 0 || !scene_node_bounds(s->world, (size_t)node, lo, hi))
         return;
-    const lmp_vec3 a = vec_load(lo), b = vec_load(hi);
-    view_frame(&s->now.camera, vec_scale(vec_add(a, b), 0.5f), 0.5f * vec_length(vec_sub(b, a)),
-               (float)s->now.width / (float)s->now.height);
+    view_frame_box(s, lo, hi);
 }
 
 void view_hide_node(view_state *s, int unused) {

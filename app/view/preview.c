@@ -119,7 +119,7 @@ static bool allocate(clusters *c, const scene *world) {
 
 bool view_preview_make(const scene *world, int cells, scene *preview, base_error *error) {
     clusters c = { .slots = NULL };
-    const float diagonal = vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
+    const float diagonal = scene_diagonal(world);
     const bool ok = allocate(&c, world);
     if (ok)
         set_cells(&c, world, diagonal / (float)cells);

@@ -130,10 +130,7 @@ static bool read_event(const words *w, view_script_line *line) {
                                : VIEW_TYPE;
     if (strcmp(what, "drop") == 0 || strcmp(what, "type") == 0 || strcmp(what, "set") == 0)
         return true;
-    for (const view_key *key = view_keys; key->key || key->shown; key++)
-        if (key->key && strcmp(key->key, line->text) == 0)
-            return strcmp(what, "key") == 0;
-    return false;
+    return strcmp(what, "key") == 0 && view_find_key(line->text);
 }
 
 static bool read_lines(const char *path, char *text, view_script *script, base_error *error) {

@@ -94,9 +94,8 @@ static bool set_view(view_state *s, const char *name, const char *typed, base_er
     else if (strcmp(name, "camera") == 0 && is_number && number == floor(number) && number >= 0 &&
              number < (double)s->world->camera_count)
         view_use_camera(s, (int)number);
-    else if (strcmp(name, "path") == 0 &&
-             (path = view_find_name((const char *const *)s->path_names, typed)) >= 0)
-        s->path = path;
+    else if (strcmp(name, "path") == 0 && (path = view_find_name(s->paths.names, typed)) >= 0)
+        s->paths.at = path;
     else if (strcmp(name, "aim") == 0 && (aim = view_find_name(view_aim_names, typed)) >= 0) {
         if (s->aim != (view_aim)aim) /* the same again would end it */
             view_choose_aim(s, aim);

@@ -134,6 +134,11 @@ static inline int view_sides(const view_settings *settings) {
     return settings->split == GPU_SPLIT_NONE ? 1 : 2;
 }
 
+/* Returns the image's width in relation to its height. */
+static inline float view_aspect(const view_settings *settings) {
+    return (float)settings->width / (float)settings->height;
+}
+
 /* Returns the variant as in scene_options. */
 static inline const char *view_variant(const view_settings *settings) {
     return settings->variant[0] ? settings->variant : NULL;

@@ -186,7 +186,7 @@ static json_t *ui_to_json(const viewer *v) {
     json_t *ui =
         json_pack("{s:i, s:f, s:b, s:o, s:i, s:i, s:b, s:b, s:b}", "frame", v->frame, "seconds",
                   s->seconds, "playing", s->playing, "path",
-                  file_json_string(s->path_names[s->path]), "selected", s->selected, "side",
+                  file_json_string(s->paths.names[s->paths.at]), "selected", s->selected, "side",
                   view_side(s), "help", s->help, "overlay", s->overlay, "walking", s->walking);
     ui = with_panel(ui, s);
     ui = file_json_with(ui, "sidebar", json_boolean(s->sidebar));

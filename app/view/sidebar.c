@@ -246,7 +246,7 @@ static void put_materials(viewer *v) {
 
 static void put_time(viewer *v) {
     view_state *s = &v->state;
-    put_choice(s, "path", "view/path", (const char *const *)s->path_names, s->path);
+    put_choice(s, "path", "view/path", s->paths.names, s->paths.at);
     put_number(s, "seconds", "view/seconds", (float)s->seconds, 0, 1e6f, 0.02f);
     put_flag(s, "playing", "view/playing", s->playing);
 }
@@ -294,21 +294,17 @@ static void put_compare(viewer *v) {
 
 /* --- lights ----------------------------------------------------------------------------------- */
 
-static float brightest(const float color[3]) {
-    return fmaxf(color[0], fmaxf(color[1], color[2]));
-}
-
 /* Puts a color in two parts: one that is picked, which leaves the brightest channel as bright as it
  * was, and its numbers. */
 static void put_color(view_state *s, const char *name, const char *path, const float *value) {
-    const float most = brightest(value), by = most > 0 ? 1 / most : 0;
+    const float most = rgb_brightest(value), by = most > 0 ? 1 / most : 0;
     float tint[3] = { by * value[0], by * value[1], by * value[2] }, numbers[3];
     char hidden[64];
     snprintf(hidden, sizeof hidden, "##tint of %s", name);
     memcpy(numbers, value, sizeof numbers);
-    if (ui_tint(hidden, tint) && brightest(tint) > 0) {
+    if (ui_tint(hidden, tint) && rgb_brightest(tint) > 0) {
         for (int k = 0; k < 3; k++)
-            numbers[k] = tint[k] / brightest(tint) * (most > 0 ? most : 1);
+            numbers[k] = tint[k] / rgb_brightest(tint) * (most > 0 ? most : 1);
         set_numbers(s, path, numbers, 3);
     } else if (ui_numbers(name, numbers, 3, 0, SCENE_COLOR_MAX, 0.005f * (most > 0 ? most : 1))) {
         set_numbers(s, path, numbers, 3);

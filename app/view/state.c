@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/state.h"
 
+#include "app/scene/vector.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,17 +20,18 @@ void view_say(view_state *s, const char *format, ...) {
 /* --- opening ---------------------------------------------------------------------------------- */
 
 static bool add_path(view_state *s, const char *name, base_error *error) {
-    if (!animation_open(name, s->world, &s->paths[s->path_count], error))
+    view_paths *p = &s->paths;
+    if (!animation_open(name, s->world, &p->animations[p->count], error))
         return false;
-    s->path_names[s->path_count++] = name;
-    s->path_names[s->path_count] = NULL;
+    p->names[p->count++] = name;
+    p->names[p->count] = NULL;
     return true;
 }
 
-static void close_paths(view_state *s) {
-    for (int i = 0; i < s->path_count; i++)
-        animation_close(s->paths[i]);
-    s->path_count = 0;
+static void close_paths(view_paths *p) {
+    for (int i = 0; i < p->count; i++)
+        animation_close(p->animations[i]);
+    p->count = p->at = 0;
 }
 
 static bool open_paths(view_state *s, const char *animate, base_error *error) {
@@ -40,12 +43,12 @@ static bool open_paths(view_state *s, const char *animate, base_error *error) {
             return false;
         if (animate && strcmp(animate, known[i]) == 0) {
             listed = true;
-            s->path = i;
+            s->paths.at = i;
         }
     }
     if (listed)
         return true;
-    s->path = s->path_count;
+    s->paths.at = s->paths.count;
     return add_path(s, animate, error);
 }
 
@@ -61,6 +64,15 @@ void view_put_lights(view_state *s, const scene_light *lights, size_t count) {
     s->lights_edited = true;
     s->selected = -1;
     s->drag = VIEW_DRAG_NONE;
+}
+
+bool view_change_light(view_state *s, const scene_light *light) {
+    scene_light_error wrong;
+    if (!scene_light_check(light, &wrong))
+        return false;
+    s->now.lights[s->selected] = *light;
+    s->lights_edited = true;
+    return true;
 }
 
 /* Takes the lights of the scene; there is nothing to undo yet. */
@@ -87,14 +99,20 @@ bool view_state_open(const scene *world, view_tree *tree, const view_settings *s
     take_lights(s);
     if (open_paths(s, animate, error))
         return true;
-    close_paths(s);
+    close_paths(&s->paths);
     return false;
 }
 
 void view_state_close(view_state *s) {
-    close_paths(s);
+    close_paths(&s->paths);
     view_history_clear(&s->history);
     view_shares_free(&s->shares);
+}
+
+void view_use_default_camera(view_state *s) {
+    s->camera = 0;
+    s->now.camera = scene_default_camera(s->world, view_aspect(&s->now));
+    s->now.camera.near = s->now.camera.far = 0; /* it may fly past the file's planes */
 }
 
 /* Resets the state for another scene, as if the viewer had been started with it. */
@@ -103,9 +121,7 @@ static void begin_other(view_state *s) {
     s->other[0] = s->now.variant[0] = '\0';
     memset(&s->now.materials, 0, sizeof s->now.materials);
     memset(&s->now.hidden, 0, sizeof s->now.hidden);
-    s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
-    s->now.camera.near = s->now.camera.far = 0; /* it may fly past the file's planes */
-    s->camera = 0;
+    view_use_default_camera(s);
     s->seconds = 0;
     s->panel = (view_panel) { .kind = VIEW_PANEL_CLOSED };
     s->walking = scene_is_inside(s->world);
@@ -123,49 +139,27 @@ static void follow_origin(view_state *s) {
     view_history_keep(&s->history, &s->now, s->numbers);
 }
 
-/* The paths of a scene, kept while opening those of another may fail. */
-typedef struct kept_paths {
-    const scene *world;
-    animation *paths[VIEW_PATHS_MAX];
-    const char *names[VIEW_PATHS_MAX + 1];
-    int count, path;
-} kept_paths;
-
-static kept_paths keep_paths(const view_state *s) {
-    kept_paths kept = { .world = s->world, .count = s->path_count, .path = s->path };
-    memcpy(kept.paths, s->paths, sizeof kept.paths);
-    memcpy(kept.names, s->path_names, sizeof kept.names);
-    return kept;
-}
-
-static void take_paths_back(view_state *s, const kept_paths *kept) {
-    s->world = kept->world;
-    s->path_count = kept->count;
-    s->path = kept->path;
-    memcpy(s->paths, kept->paths, sizeof kept->paths);
-    memcpy(s->path_names, kept->names, sizeof kept->names);
-}
-
 bool view_state_replace_scene(view_state *s, const scene *world, view_tree *tree,
                               base_error *error) {
-    const kept_paths before = keep_paths(s);
-    const char *name = s->path_names[s->path];
+    view_paths before = s->paths;
+    const scene *world_before = s->world;
+    const char *name = before.names[before.at];
     s->world = world;
-    s->path_count = s->path = 0;
+    s->paths.count = s->paths.at = 0;
     if (!open_paths(s, name, error)) {
-        close_paths(s);
+        close_paths(&s->paths);
         /* the new scene may lack the motion that was playing; do without it */
         if (!open_paths(s, NULL, error)) {
-            close_paths(s);
-            take_paths_back(s, &before);
+            close_paths(&s->paths);
+            s->paths = before;
+            s->world = world_before;
             return false;
         }
     }
     s->now.up = world->up;
     s->tree = tree;
     s->node = -1;
-    for (int i = 0; i < before.count; i++)
-        animation_close(before.paths[i]);
+    close_paths(&before);
     follow_origin(s);
     if (s->other[0])
         begin_other(s);
@@ -193,7 +187,7 @@ void view_undo(view_state *s, int step) {
 /* Moves a light from where it rests to where it is in the animation. */
 static void move_light(const view_state *s, size_t index, scene_light *light) {
     if (s->seconds > 0)
-        animation_move(s->paths[s->path], s->numbers[index], s->seconds, light);
+        animation_move(s->paths.animations[s->paths.at], s->numbers[index], s->seconds, light);
 }
 
 /* Turns a light off. */
@@ -220,13 +214,23 @@ scene_light view_shown_light(const view_state *s, int index) {
     return light;
 }
 
+view_ray view_ray_at(const view_state *s, double x, double y) {
+    return view_ray_through(&s->now.camera, s->now.width, s->now.height, x, y);
+}
+
 view_ray view_pointer_ray(const view_state *s) {
-    return view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
+    return view_ray_at(s, s->x, s->y);
 }
 
 view_hit view_hit_at_pointer(const view_state *s, view_ray *ray) {
     *ray = view_pointer_ray(s);
     return view_pick_surface(ray, s->tree);
+}
+
+void view_frame_box(view_state *s, const float lo[3], const float hi[3]) {
+    const lmp_vec3 a = vec_load(lo), b = vec_load(hi);
+    view_frame(&s->now.camera, vec_scale(vec_add(a, b), 0.5f), 0.5f * vec_length(vec_sub(b, a)),
+               view_aspect(&s->now));
 }
 
 int view_side(const view_state *s) {

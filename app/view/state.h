@@ -116,15 +116,19 @@ typedef struct view_panel {
     char typed[VIEW_TYPED_SIZE];
 } view_panel;
 
+/* The paths that lights can move along, and the one chosen. */
 enum { VIEW_PATHS_MAX = 4, VIEW_MESSAGE_SIZE = 256 };
+typedef struct view_paths {
+    animation *animations[VIEW_PATHS_MAX]; /* owned */
+    const char *names[VIEW_PATHS_MAX + 1]; /* ended by NULL */
+    int count, at;
+} view_paths;
 
 typedef struct view_state {
     view_settings now; /* lights at rest, without animation */
     const scene *world;
-    view_tree *tree;                            /* of what is not hidden of it */
-    animation *paths[VIEW_PATHS_MAX];           /* owned */
-    const char *path_names[VIEW_PATHS_MAX + 1]; /* ended by NULL */
-    int path_count, path;
+    view_tree *tree; /* of what is not hidden of it */
+    view_paths paths;
     bool playing;
     double seconds;                                /* of the animation */
     size_t numbers[SCENE_LIGHTS_MAX], next_number; /* for animation_move, one per light */
@@ -181,6 +185,13 @@ void view_keep(view_state *state);
 /* Advances time: flight, the animation, messages. */
 void view_advance(view_state *state, double seconds);
 
+/* Changes the selected light, unless it would not be valid; returns whether it is changed. */
+bool view_change_light(view_state *state, const scene_light *light);
+
+/* Moves the camera to where the scene wants it, or back until a box fits the image. */
+void view_use_default_camera(view_state *state);
+void view_frame_box(view_state *state, const float lo[3], const float hi[3]);
+
 /* Returns what to draw now: settings with all lights at their animated positions. */
 void view_shown(const view_state *state, view_settings *settings);
 
@@ -190,7 +201,9 @@ scene_light view_shown_light(const view_state *state, int index);
 /* Returns the side that keys act on: the one under the pointer. */
 int view_side(const view_state *state);
 
-/* Returns the ray through the pointer, and the surface under it. */
+/* Return the ray through a place in the image, that through the pointer, and the surface under it.
+ */
+view_ray view_ray_at(const view_state *state, double x, double y);
 view_ray view_pointer_ray(const view_state *state);
 view_hit view_hit_at_pointer(const view_state *state, view_ray *ray);
 
@@ -245,13 +258,17 @@ extern const view_key view_keys[]; /* ended by a row of NULLs */
 /* Whether a row is a heading, which the rows after it belong to. */
 bool view_is_heading(const view_key *row);
 
+/* Whether an action quits or cancels, which is all there is to do while the first scene is read. */
+bool view_is_end(const view_key *row);
+
 /* Whether what the action of a row switches is on. */
 bool view_is_on(const view_state *state, const view_key *row);
 
 /* The materials of the key T: the scene's own, some others, then NULL. */
 extern const char *const view_known_materials[];
 
-/* Returns the action of that name, or NULL. */
+/* Return the row of a key, or the action of a name, or NULL. */
+const view_key *view_find_key(const char *key);
 const view_key *view_find_action(const char *name);
 
 #endif

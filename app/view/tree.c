@@ -104,7 +104,7 @@ static lmp_vec3 facing(lmp_vec3 v, lmp_vec3 side) {
 }
 
 view_hit view_pick_surface(const view_ray *ray, view_tree *tree) {
-    view_hit picked = { -1, -1, INFINITY, { 0, 1, 0 }, { 0, 1, 0 } };
+    view_hit picked = { .mesh = -1, .instance = -1, .distance = INFINITY };
     const trace_bvh *bvh = view_tree_wait(tree);
     const trace_hit hit = bvh ? trace(ray, bvh, tree->scene) : trace_miss();
     if (hit.instance == TRACE_NOTHING)
@@ -121,6 +121,7 @@ view_hit view_pick_surface(const view_ray *ray, view_tree *tree) {
     picked.mesh = (int)tree->scene->instances[hit.instance].mesh;
     picked.instance = (long)hit.instance;
     picked.distance = hit.distance;
+    picked.point = vec_add(ray->from, vec_scale(ray->direction, hit.distance));
     picked.normal = facing(vec_normalize(normal, back), back);
     picked.smooth = facing(vec_normalize(smooth, picked.normal), picked.normal);
     return picked;

@@ -25,6 +25,7 @@ typedef struct view_hit {
     int mesh;
     long instance;
     float distance;
+    lmp_vec3 point;
     lmp_vec3 normal; /* unit, of the triangle, on the side the ray comes from */
     lmp_vec3 smooth; /* unit, interpolated between its corners, on the same side; without its map */
 } view_hit;

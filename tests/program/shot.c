@@ -295,8 +295,9 @@ static bool open_part(const view_settings *s, int which, bool *outside) {
         }
     } else if (which == 1) {
         environment read;
-        if ((ok = environment_open(&(environment_options) { .name = s->environment.name, .strength = 1 },
-                                   &world, &read, &error))) {
+        if ((ok = environment_open(
+                 &(environment_options) { .name = s->environment.name, .strength = 1 }, &world,
+                 &read, &error))) {
             *outside = read.light.rgb[0] > 1;
             environment_free(&read);
         }

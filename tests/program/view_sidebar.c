@@ -30,7 +30,7 @@ static void note(outcome *o) {
     strcpy(o->message, s->message);
     o->seconds = s->seconds;
     o->selected = s->selected;
-    o->path = s->path;
+    o->path = s->paths.at;
     o->camera = s->camera;
     o->playing = s->playing;
     o->help = s->help;
@@ -172,7 +172,7 @@ static void values_are_set_by_their_names_in_the_json(void **unused) {
     set("view/seconds 2.5");
     set("view/playing true");
     assert_int_equal(v.state.selected, 1);
-    assert_string_equal(v.state.path_names[v.state.path], "bounce");
+    assert_string_equal(v.state.paths.names[v.state.paths.at], "bounce");
     assert_true(v.state.playing);
     CHECK_NEAR(2.5, v.state.seconds, 0);
 }

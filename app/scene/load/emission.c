@@ -34,10 +34,6 @@ typedef struct glowing {
 
 /* --- triangles -------------------------------------------------------------------------------- */
 
-static float brightest_of(const float radiance[3]) {
-    return fmaxf(radiance[0], fmaxf(radiance[1], radiance[2]));
-}
-
 /* Adds a triangle. Of a double-sided body the outside shines, whose inside gives its light to
  * itself; another double-sided triangle shines from both sides. */
 static void add_triangle(const emission_maps *maps, const scene_material *material, size_t instance,
@@ -59,10 +55,10 @@ static void remove_dark(glowing *g) {
     float most = 0.0f;
     size_t left = 0;
     for (size_t i = 0; i < g->count; i++)
-        most = fmaxf(most, brightest_of(g->triangles[i].radiance));
+        most = fmaxf(most, rgb_brightest(g->triangles[i].radiance));
     for (size_t i = 0; i < g->count; i++) {
         const piece_triangle t = g->triangles[i];
-        if (!(brightest_of(t.radiance) > darkest * most))
+        if (!(rgb_brightest(t.radiance) > darkest * most))
             continue;
         g->triangles[left++] = t;
         g->both += t.both;
@@ -354,7 +350,7 @@ static bool check_emission(const scene_builder *builder, const char *subject, ba
 
 static bool shines(const scene *world, const scene_material *materials, size_t instance) {
     const scene_material *m = &materials[world->meshes[world->instances[instance].mesh].material];
-    return !(m->flags & (SCENE_UNLIT | SCENE_GLOWS_ALONE)) && brightest_of(m->emission) > 0.0f;
+    return !(m->flags & (SCENE_UNLIT | SCENE_GLOWS_ALONE)) && rgb_brightest(m->emission) > 0.0f;
 }
 
 /* Returns the most lights of each mesh where so many shine. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/builtin/builtin.h"
 #include "app/scene/grid.h"
+#include "app/scene/instance.h"
 #include "app/scene/random.h"
 #include "app/scene/scene.h"
 #include "app/scene/space.h"
@@ -26,10 +27,6 @@
 void scene_clear_lights(scene *s) {
     s->light_count = 0;
     s->motion_count = 0;
-}
-
-static float scene_size(const scene *s) {
-    return vec_length(vec_sub(vec_load(s->maximum), vec_load(s->minimum)));
 }
 
 lmp_rgb builtin_light_color(uint64_t *random, float warm_fraction) {
@@ -132,8 +129,8 @@ static void see_box(const scene *s, random_box *box) {
 
 static random_box box_of(const scene *s) {
     const bool building = scene_is_inside(s);
-    const float around = RANDOM_AROUND * scene_size(s);
-    random_box box = { .size = scene_size(s) };
+    const float around = RANDOM_AROUND * scene_diagonal(s);
+    random_box box = { .size = scene_diagonal(s) };
     for (int k = 0; k < 3; k++) {
         const float extent = s->maximum[k] - s->minimum[k];
         box.lo[k] = s->minimum[k] + (building ? RANDOM_MARGIN * extent : k == 1 ? 0.0f : -around);
