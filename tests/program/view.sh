@@ -306,7 +306,7 @@ test_nodes() {
     same() { "$PROGRAM" compare "$1" "$2" --fail-above max=0 >compare.txt || fail "$1 and $2 differ: $(cat compare.txt)"; }
     same hidden.png floor.png
     same alone.png floor.png
-    same whole.png again.png
+    cmp whole.png again.png || fail "a node that was hidden and shown again leaves another image"
     cmp -s whole.png hidden.png && fail "nothing is hidden"
     "$PROGRAM" render --from hidden.png -o repeated.png || fail "rendering what is left: $?"
     cmp hidden.png repeated.png || fail "an image without a node is repeated otherwise"
@@ -443,6 +443,29 @@ test_sidebar() {
     until_true "another method by its key" is value method '"coefficients"'
     settings_of state.json >by_key.txt
     stop
+
+    # the image beside the sidebar is the one without it, to the byte; what it covers is not
+    if command -v import >/dev/null; then
+        "$PROGRAM" view $sized --state state.json 2>view.err &
+        viewer=$!
+        until_true "all samples" is value sample 0
+        xdotool mousemove 160 240 key i
+        until_true "no statistics" is value overlay false
+        for width in 320 640; do
+            import -window root -crop ${width}x480+0+0 +repage without$width.png
+        done
+        xdotool key F3
+        until_true "the sidebar by its key" is value sidebar true
+        for width in 320 640; do
+            import -window root -crop ${width}x480+0+0 +repage beside$width.png
+        done
+        "$PROGRAM" compare without320.png beside320.png --fail-above max=0 >compare.txt ||
+            fail "the image beside the sidebar is another one: $(cat compare.txt)"
+        "$PROGRAM" compare without640.png beside640.png --fail-above max=0 >compare.txt && fail "there is no sidebar"
+        stop
+    else
+        echo "skipped: import is not installed (package imagemagick)"
+    fi
 
     printf '0 move 160 240\n0.1 press "Add light"\n0.2 press "Copy light"\n0.3 press "Next method"\n0.5 key Ctrl+Q\n' >press.txt
     "$PROGRAM" view $sized --script press.txt --state state.json || fail "the script ends in $?"

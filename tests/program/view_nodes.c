@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Nodes of the viewer's scene: found, framed, hidden, and what is left then. */
+#include "app/scene/instance.h"
 #include "app/scene/node.h"
 #include "app/view/nodes.h"
 #include "tests/program/folder.h"
+#include "tests/program/load.h"
 #include "tests/program/viewer.h"
 
 #include <jansson.h>
@@ -271,6 +273,57 @@ static void an_instance_belongs_to_the_node_that_draws_it(void **unused) {
     assert_true(memcmp(low, lamp_low, sizeof low) != 0 || memcmp(high, lamp_high, sizeof high));
 }
 
+/* A plate named by its geometry, x to the right, as Collada has it, which Assimp reads. */
+#define PLATE(name, x)                                                                             \
+    "<geometry id=\"" name "\" name=\"" name "\"><mesh><source id=\"p" name "\">"                  \
+    "<float_array id=\"a" name "\" count=\"9\">" x " 0 0 " x " 1 0 " x " 1 1</float_array>"        \
+    "<technique_common><accessor source=\"#a" name "\" count=\"3\" stride=\"3\">"                  \
+    "<param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/>"                         \
+    "<param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"                    \
+    "<vertices id=\"v" name "\"><input semantic=\"POSITION\" source=\"#p" name "\"/></vertices>"   \
+    "<triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v" name "\" offset=\"0\"/>"       \
+    "<p>0 1 2</p></triangles></mesh></geometry>"
+#define SHOW(name) "<node><instance_geometry url=\"#" name "\"/></node>"
+static const char plates[] =
+    "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+    "version=\"1.4.1\"><asset><up_axis>Y_UP</up_axis></asset><library_geometries>" //
+    PLATE("left", "-2")
+        PLATE("right",
+              "2") "</library_geometries><library_visual_scenes>"
+                   "<visual_scene id=\"s\">" SHOW("left")
+                       SHOW("right") "</visual_scene></library_visual_scenes>"
+                                     "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+
+/* A file that is not glTF has its meshes by their names, and hides the triangles of the right one.
+ */
+static void meshes_of_other_formats_are_nodes(void **unused) {
+    (void)unused;
+    const scene ball = world;
+    float corners[3][3];
+    folder_write_text("plates.dae", plates);
+    world = load(in_folder("plates.dae"));
+    apply();
+    assert_int_equal(world.instance_count, 2);
+    click_on("Scene");
+    assert_true(lists("left##node") && lists("right##node"));
+    for (int side = 0; side < 2; side++) {
+        click_on(side ? "right##node" : "left##node");
+        act("Hide");
+        assert_int_equal(part->instance_count, 1);
+        scene_triangle_positions(part, 0, 0, corners);
+        for (int i = 0; i < 3; i++)
+            CHECK_NEAR(side ? -2 : 2, corners[i][0], 1e-6);
+        view_lay_out(&v, NULL, false);
+        assert_true(lists(side ? "right, hidden##node" : "left, hidden##node"));
+        act("Show all");
+        assert_int_equal(part->instance_count, 2);
+        view_lay_out(&v, NULL, false);
+    }
+    view_tree_wait(v.state.tree); /* it reads the scene until it is built */
+    scene_free(&world);
+    world = ball;
+}
+
 /* The tree is folded at first; a node that is picked, or found by its name, is seen. */
 static void the_tree_folds(void **unused) {
     (void)unused;
@@ -337,8 +390,9 @@ int main(void) {
         NODES(hiding_is_undone),
         NODES(what_is_below_a_node_is_hidden_with_it),
         NODES(an_instance_belongs_to_the_node_that_draws_it),
+        NODES(meshes_of_other_formats_are_nodes),
         NODES(the_tree_folds),
         NODES(a_large_tree_is_fast),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
