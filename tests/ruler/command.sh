@@ -13,7 +13,8 @@ cut -d, -f1-10 "$WORK/all.csv" | cmp - "$WORK/plain.csv" || fail "--truth change
 ! tail -n +2 "$WORK/some.csv" | grep -v '^[0-9]*,sphere,.*,lambert,' || fail "other rows were printed"
 "$PROGRAM" ruler --format json --truth >"$WORK/all.json"
 [ "$(grep -c '"value": [0-9]' "$WORK/all.json")" = $(($(wc -l <"$WORK/all.csv") - 1)) ] || fail "JSON has other rows"
-! command -v python3 >/dev/null || python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$WORK/all.json"
+python=$(python_with json)
+[ -z "$python" ] || "$python" -c 'import json, sys; json.load(open(sys.argv[1]))' "$WORK/all.json"
 
 # A column may have either form, any order, and either end of line.
 cut -d, -f1-11 "$WORK/all.csv" >"$WORK/whole.csv"

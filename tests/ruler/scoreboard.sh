@@ -19,7 +19,8 @@ awk -F, 'NR > 1 && $5 == "all" { whole[$2] = $6; next } NR > 1 { sum[$2] += $6 }
     fail "cells are missing"
 "$PROGRAM" scoreboard --formula cosines --format json >"$WORK/all.json"
 [ "$(grep -c '"formula"' "$WORK/all.json")" = $(($(wc -l <"$WORK/all.csv") - 1)) ] || fail "JSON has other records"
-! command -v python3 >/dev/null || python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$WORK/all.json"
+python=$(python_with json)
+[ -z "$python" ] || "$python" -c 'import json, sys; json.load(open(sys.argv[1]))' "$WORK/all.json"
 
 # refuse TEXT OPTION…: the command must fail with one line that contains TEXT.
 refuse() {
