@@ -25,6 +25,13 @@ code_blocks() {
     awk -v fence='```'"$2" '$0 == fence { inside = 1; next } /^```/ { inside = 0 } inside' "$1"
 }
 
+# library_objects: prints those of $BUILD as a list of CMake's.
+library_objects() {
+    objects=$(ninja -C "$BUILD" -t inputs liblampion.a | sed -n "s,^\(CMakeFiles/lampion_objects[.]dir/.*[.]o\)\$,$BUILD/\1,p")
+    [ "$(echo "$objects" | wc -l)" -gt 50 ] || fail "the objects of $BUILD:" $objects
+    echo $objects | tr ' ' ';'
+}
+
 # python_with MODULE…: prints the first Python that has these modules; nothing if none has.
 python_with() {
     modules=$(printf 'import %s\n' "$@")

@@ -53,9 +53,19 @@ export PKG_CONFIG_PATH="$lib/pkgconfig" LD_LIBRARY_PATH="$lib"
 consume shared
 consume static
 unset PKG_CONFIG_PATH LD_LIBRARY_PATH
-simd=OFF type=Debug # compiling every instruction set within another project is of the long form
-[ -z "${LAMPION_LONG:-}" ] || simd=ON type=Release # which is what the library alone compiles below, once with ccache
-quietly cmake -G Ninja -S "$WORK/inside" -B "$WORK/inside/build" -DCMAKE_BUILD_TYPE=$type -DLAMPION_SIMD=$simd
+# Within another project files are compiled by the same flags: of each folder one is, the others are those of $BUILD;
+# compiling all is of the long form, as the library alone below, once with ccache.
+inside() {
+    quietly cmake -G Ninja -S "$WORK/inside" -B "$WORK/inside/build" -DCMAKE_BUILD_TYPE=Release "$@"
+}
+if [ -n "${LAMPION_LONG:-}" ]; then
+    inside
+else
+    objects=$(library_objects)
+    inside "-DLAMPION_OBJECTS=$objects"
+    quietly ninja -C "$WORK/inside/build" $(ls src/[!k]*/*.c src/kernels/dispatch.c |
+        awk -F/ '!seen[$2]++ { print "lampion/CMakeFiles/lampion_objects.dir/" $0 ".o" }')
+fi
 quietly cmake --build "$WORK/inside/build"
 "$WORK/inside/build/first_light" >"$WORK/inside.txt"
 

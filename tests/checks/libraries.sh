@@ -5,15 +5,14 @@
 set -eu
 . tests/checks/common.sh
 
-objects=$(ninja -C "$BUILD" -t inputs liblampion.a | sed -n "s,^\(CMakeFiles/lampion_objects[.]dir/.*[.]o\)\$,$BUILD/\1,p")
-[ "$(echo "$objects" | wc -l)" -gt 50 ] || fail "the objects of $BUILD:" $objects
+objects=$(library_objects)
 export SOURCE_DATE_EPOCH=0
 python=OFF components='library development' targets='lampion lampion_other lampion_hlsl lampion_metal lampion_wgsl'
 if [ -n "$(python_with cffi)" ]; then
     python=ON components="$components python" targets="$targets lampion_python"
 fi
 {
-    cmake --preset package -B "$WORK/build" -DLAMPION_PROGRAM=OFF -DLAMPION_PYTHON=$python "-DLAMPION_OBJECTS=$(echo $objects | tr ' ' ';')" &&
+    cmake --preset package -B "$WORK/build" -DLAMPION_PROGRAM=OFF -DLAMPION_PYTHON=$python "-DLAMPION_OBJECTS=$objects" &&
         cmake --build "$WORK/build" --target $targets &&
         for component in $components; do
             cmake --install "$WORK/build" --prefix "$WORK/usr" --component $component || exit 1
