@@ -17,8 +17,9 @@ static box bounds_of(const trace_corner_set *triangles, uint32_t count) {
     for (uint32_t t = 0; t < count; t++)
         for (int i = 0; i < 3; i++)
             for (int k = 0; k < 3; k++) {
-                b.minimum[k] = fminf(b.minimum[k], triangles[t].of[i][k]);
-                b.maximum[k] = fmaxf(b.maximum[k], triangles[t].of[i][k]);
+                const float x = triangles[t].of[i][k]; /* fminf would be a call, for NaN */
+                b.minimum[k] = x < b.minimum[k] ? x : b.minimum[k];
+                b.maximum[k] = x > b.maximum[k] ? x : b.maximum[k];
             }
     return b;
 }
