@@ -58,8 +58,25 @@ static long double first_normalization(int m) {
     return k;
 }
 
+/* K_l^m at [m][l], once for all directions: its roots took most of a test's time. No test calls
+ * from several threads. */
+static long double normalization[ORACLE_BANDS_MAX][ORACLE_BANDS_MAX];
+
+static void find_normalization(void) {
+    if (normalization[ORACLE_BANDS_MAX - 1][ORACLE_BANDS_MAX - 1] > 0)
+        return;
+    for (int m = 0; m < ORACLE_BANDS_MAX; m++) {
+        long double k = first_normalization(m);
+        for (int l = m; l < ORACLE_BANDS_MAX; l++) {
+            normalization[m][l] = k;
+            k *= sqrtl((2 * l + 3) * (l + 1 - m) / ((2 * l + 1) * (long double)(l + 1 + m)));
+        }
+    }
+}
+
 void oracle_sh_eval(int bands, const double direction[3], double *sh) {
     assert(bands >= 1 && bands <= ORACLE_BANDS_MAX);
+    find_normalization();
     double w[3];
     normalize(direction, w);
     const long double z = (long double)w[2];
@@ -69,10 +86,9 @@ void oracle_sh_eval(int bands, const double direction[3], double *sh) {
         long double before = 0, now = 1;
         for (int k = 1; k <= m; k++)
             now *= -(2 * k - 1) * (long double)sine;
-        long double k = first_normalization(m);
         const double c = cos(m * phi), s = sin(m * phi);
         for (int l = m; l < bands; l++) {
-            const double value = (double)(k * now);
+            const double value = (double)(normalization[m][l] * now);
             if (m == 0) {
                 sh[l * l + l] = value;
             } else {
@@ -82,7 +98,6 @@ void oracle_sh_eval(int bands, const double direction[3], double *sh) {
             const long double next = ((2 * l + 1) * z * now - (l + m) * before) / (l + 1 - m);
             before = now;
             now = next;
-            k *= sqrtl((2 * l + 3) * (l + 1 - m) / ((2 * l + 1) * (long double)(l + 1 + m)));
         }
     }
 }
