@@ -343,7 +343,7 @@ bool view_read_member(const view_member *m, json_t *item, view_settings *s) {
     case VIEW_TEXT:
         return read_text(item, SCENE_NAME_SIZE, value);
     case VIEW_OBJECT:
-        return !read_members(m->members, item, s);
+        return json_is_object(item) && !read_members(m->members, item, s);
     case VIEW_ARRAY:
         return json_array_size(item) == 2 && !read_members(m->members, item, s);
     case VIEW_HIDDEN:
