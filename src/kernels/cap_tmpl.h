@@ -128,6 +128,7 @@ LMPI_INLINE void cap_radials(int caps, int bands, const cap_lanes *cap, vf stren
     vf r[CAP_SIDE_BY_SIDE], difference[CAP_SIDE_BY_SIDE];
     LMPI_OPAQUE(cap_d);
     LMPI_OPAQUE(cap_t);
+    /* all, because compilers do not see that there is at least one cap */
     LMPI_UNROLL for (int k = 0; k < CAP_SIDE_BY_SIDE; k++) r[k] = difference[k] = vf_set(0);
     LMPI_UNROLL for (int k = 0; k < caps; k++) {
         r[k] = strength * cap[k].s2;
@@ -140,9 +141,11 @@ LMPI_INLINE void cap_radials(int caps, int bands, const cap_lanes *cap, vf stren
         r[k] = r[k] + difference[k];
         radial[k][l] = r[k];
     }
-    LMPI_UNROLL for (int k = 0; k < caps;
-                     k++) if (__builtin_expect(cap[k].inside, 0)) for (int l = 2; l < bands; l += 2)
-        radial[k][l] = radial[k][l] * cap[k].even;
+    LMPI_UNROLL for (int k = 0; k < caps; k++) {
+        if (__builtin_expect(cap[k].inside, 0))
+            for (int l = 2; l < bands; l += 2)
+                radial[k][l] = radial[k][l] * cap[k].even;
+    }
 }
 
 LMPI_INLINE void cap_radial(int bands, const cap_lanes *cap, vf strength, vf *radial) {

@@ -6,6 +6,7 @@
  * once for all rows or faces that share them. */
 #include "src/base/half.h"
 #include "src/base/precondition.h"
+#include "src/kernels/batch.h"
 #include "src/kernels/dispatch.h"
 
 #include <lampion/sh.h>
@@ -65,8 +66,7 @@ static void read_channel(const pass *p, const char *at, int count, const double 
             memcpy(&texel, at + (size_t)i * stride, sizeof texel);
             value[i] = (float)((double)texel * solid_angle[i]);
         }
-    for (int i = count; i % LMPI_KERNEL_LANES_MAX; i++)
-        value[i] = 0;
+    lmpi_batch_fill_plane(value, (size_t)count);
 }
 
 /* Adds `count` texels from (row, column) on, whose directions are set. */
