@@ -221,6 +221,37 @@ static void derives_128_bands(void **state) {
     CHECK_WITHIN(check_error(3 * MOST, slopes, gradient), 1e-2);
 }
 
+/* Members of spheres lie in planes, in structs, or are the same for all: the bits do not differ,
+ * whichever of them do. */
+static void sums_have_the_bits_of_planes_wherever_members_lie(void **state) {
+    (void)state;
+    enum { COUNT = 11, BANDS = 4, VALUES = 3 * LMP_SH_COUNT(BANDS), MEMBERS = 7, APART = 3 };
+    static float planes[MEMBERS][COUNT], apart[MEMBERS][APART * COUNT];
+    for (int k = 0; k < MEMBERS; k++)
+        for (int i = 0; i < COUNT; i++)
+            planes[k][i] = apart[k][APART * i] =
+                k == 3 ? 0.25f : 1 + (float)((5 * i + 3 * k) % 7) / 4; /* 3: the radius */
+    const lmp_vec3 point = { 0.5f, -0.25f, 0.125f };
+    const size_t plane = sizeof(float), wide = APART * sizeof(float);
+    float expected[VALUES], sums[VALUES];
+    for (int which = 0; which < 9; which++) {
+        float(*const c)[APART * COUNT] = apart, (*const p)[COUNT] = planes;
+        const bool center = which & 1, radiance = which & 4;
+        const size_t radius = which == 8 ? 0 : which & 2 ? wide : plane;
+        const lmp_spheres spheres = {
+            center ? (lmp_vec3_array) { c[0], c[1], c[2], wide }
+                   : (lmp_vec3_array) { p[0], p[1], p[2], plane },
+            { radius == plane ? p[3] : c[3], radius },
+            radiance ? (lmp_vec3_array) { c[4], c[5], c[6], wide }
+                     : (lmp_vec3_array) { p[4], p[5], p[6], plane },
+        };
+        lmp_sphere_sum_n(NULL, BANDS, &spheres, COUNT, NULL, lmp_vec3_array_same(&point), 1,
+                         lmp_sh_interleaved(which ? sums : expected, 0));
+        if (which)
+            assert_memory_equal(sums, expected, sizeof sums);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(projects_the_vector_file),
@@ -236,6 +267,7 @@ int main(void) {
         cmocka_unit_test(derives_as_the_oracle_does_outside_and_inside),
         cmocka_unit_test(derives_finitely_on_the_surface_and_at_the_center),
         cmocka_unit_test(derives_128_bands),
+        cmocka_unit_test(sums_have_the_bits_of_planes_wherever_members_lie),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
