@@ -86,19 +86,20 @@ void view_settings_rebase(view_settings *s, const double origin[3]) {
         { MEMBER("bands", INTEGER, shading[i].bands), .range = { 1, LMP_BANDS_MAX } },             \
         { MEMBER("window", CHOICE, shading[i].window), .list = method_window_names },
 
-static const view_member left[] = { SIDE(0) { NULL } }, right[] = { SIDE(1) { NULL } };
+static const view_member left[] = { SIDE(0) { .name = NULL } },
+                         right[] = { SIDE(1) { .name = NULL } };
 
 static const view_member sides[] = {
     { MEMBER("0", OBJECT, shading[0]), .members = left },
     { MEMBER("1", OBJECT, shading[1]), .members = right },
-    { NULL },
+    { .name = NULL },
 };
 
 static const view_member environment_members[] = {
     { MEMBER("name", FILE, environment.name) },
     { MEMBER("rotation", FLOAT, environment.rotation), .range = { -360, 360 } },
     { MEMBER("strength", FLOAT, environment.strength), .range = { 0, ENVIRONMENT_STRENGTH_MAX } },
-    { NULL },
+    { .name = NULL },
 };
 
 static const view_member camera_members[] = {
@@ -107,7 +108,7 @@ static const view_member camera_members[] = {
     { MEMBER("up", FLOATS, camera.up), .range = { -FAR, FAR } },
     { MEMBER("fov", FLOAT, camera.fov), .range = { 0.001, 3.1 } },
     { MEMBER("height", FLOAT, camera.height), VIEW_UNUSUAL, .range = { 1e-6, FAR } },
-    { NULL },
+    { .name = NULL },
 };
 
 /* In the order in which they are read: what is in the world needs the origin before it. */
@@ -136,7 +137,7 @@ static const view_member settings_members[] = {
     { MEMBER("hidden", HIDDEN, hidden), VIEW_FIXED | VIEW_UNUSUAL },
     { MEMBER("materials", MATERIALS, materials), VIEW_FIXED },
     { MEMBER("lights", LIGHTS, lights), VIEW_FIXED },
-    { NULL },
+    { .name = NULL },
 };
 
 /* --- to JSON ---------------------------------------------------------------------------------- */
