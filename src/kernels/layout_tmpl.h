@@ -48,11 +48,10 @@ LMPI_INLINE vf layout_load_quarters(const float *from, size_t step) {
     return layout_quarters(quarters);
 }
 
-/* Writes four planes of a full block as rows. The row's address is hidden, because compilers would
- * otherwise hold every one, in vector registers if need be. */
-LMPI_INLINE void layout_rows4(const float *block, size_t plane, float *row, size_t stride) {
-    vf t[4];
-    LMPI_UNROLL for (size_t i = 0; i < 4; i++) t[i] = vf_load(block + i * plane);
+/* Writes four registers as rows. The row's address is hidden, because compilers would otherwise
+ * hold every one, in vector registers if need be. */
+LMPI_INLINE void layout_write4(const vf *values, float *row, size_t stride) {
+    vf t[4] = { values[0], values[1], values[2], values[3] };
     layout_transpose4(t);
     LMPI_UNROLL for (int e = 0; e < LMPI_LANES; e++) {
         layout_store_quarter(row, t[e % 4], e / 4);
@@ -61,17 +60,45 @@ LMPI_INLINE void layout_rows4(const float *block, size_t plane, float *row, size
     }
 }
 
-/* Writes three planes as rows, and leaves what follows a row alone. */
-LMPI_INLINE void layout_rows3(const float *block, size_t plane, float *row, size_t stride) {
-    vf t[4];
-    LMPI_UNROLL for (size_t i = 0; i < 3; i++) t[i] = vf_load(block + i * plane);
-    t[3] = t[2];
+/* Writes three registers as rows, and leaves what follows a row alone: of rows that touch, a store
+ * of four values writes the first of the next row, which that row then replaces. */
+LMPI_INLINE void layout_write3(const vf *values, float *row, size_t stride) {
+    vf t[4] = { values[0], values[1], values[2], values[2] };
     layout_transpose4(t);
+    if (stride == 3) {
+        LMPI_UNROLL for (int e = 0; e < LMPI_LANES - 1; e++)
+            layout_store_quarter(row + 3 * e, t[e % 4], e / 4);
+        memcpy(row + 3 * (LMPI_LANES - 1), (const char *)&t[3] + 4 * (LMPI_LANES - 4),
+               3 * sizeof(float));
+        return;
+    }
     LMPI_UNROLL for (int e = 0; e < LMPI_LANES; e++) {
         memcpy(row, (const char *)&t[e % 4] + 16 * (e / 4), 3 * sizeof(float));
         row += stride;
         LMPI_OPAQUE(row);
     }
+}
+
+/* Writes three registers or more as rows, without the memory of a block. */
+LMPI_INLINE void layout_write(int count, const vf *values, float *rows, size_t stride) {
+    if (count == 3)
+        layout_write3(values, rows, stride);
+    LMPI_UNROLL for (int v = 0; v + 4 <= count; v += 4) layout_write4(values + v, rows + v, stride);
+    /* The last four are written again, which is faster than writing what is left one by one. */
+    if (count > 4 && count % 4 != 0)
+        layout_write4(values + count - 4, rows + count - 4, stride);
+}
+
+/* Writes three or four planes of a full block as rows. */
+LMPI_INLINE void layout_rows4(const float *block, size_t plane, float *row, size_t stride) {
+    vf t[4];
+    LMPI_UNROLL for (size_t i = 0; i < 4; i++) t[i] = vf_load(block + i * plane);
+    layout_write4(t, row, stride);
+}
+LMPI_INLINE void layout_rows3(const float *block, size_t plane, float *row, size_t stride) {
+    vf t[3];
+    LMPI_UNROLL for (size_t i = 0; i < 3; i++) t[i] = vf_load(block + i * plane);
+    layout_write3(t, row, stride);
 }
 
 /* Writes eight values of each element, by whole registers. */
@@ -203,6 +230,9 @@ LMPI_INLINE int layout_full_planes(const float *rows, size_t stride, size_t valu
 #else
 
 /* With one lane, rows and planes are the same. */
+LMPI_INLINE void layout_write(int count, const vf *values, float *rows, size_t stride) {
+    (void)count, (void)values, (void)rows, (void)stride;
+}
 LMPI_INLINE void layout_transpose4(vf v[4]) {
     (void)v;
 }

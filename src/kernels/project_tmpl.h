@@ -123,9 +123,10 @@ static void kernel_project(int bands, const lmpi_kernel_pairs *pairs, size_t cou
 }
 
 /* Computes zonal coefficients, L_l0 along the axis: radial_l Y_l0(z) (paper Eq. 12 and 13), of some
- * registers of pairs side by side. */
-LMPI_INLINE void zonal_blocks(int blocks, int bands, const float *radius, const float *distance,
-                              size_t element, size_t count, const lmpi_kernel_out *out) {
+ * registers of pairs side by side. A constant number of bands goes to rows from registers. */
+LMPI_INLINE void zonal_blocks(int blocks, int bands, int constant, const float *radius,
+                              const float *distance, size_t element, size_t count,
+                              const lmpi_kernel_out *out) {
     vf memory[CAP_SIDE_BY_SIDE][LMP_BANDS_MAX], *radial[CAP_SIDE_BY_SIDE];
     float LMPI_ALIGNED block[LMP_BANDS_MAX * LMPI_LANES];
     cap_lanes cap[CAP_SIDE_BY_SIDE];
@@ -137,6 +138,11 @@ LMPI_INLINE void zonal_blocks(int blocks, int bands, const float *radius, const 
     cap_radials(blocks, bands, cap, vf_set(LMPI_KERNEL_PI), radial);
     LMPI_UNROLL for (int k = 0; k < blocks; k++) {
         const size_t e = element + (size_t)k * LMPI_LANES, live = layout_live(count, e);
+        if (LMPI_LANES > 1 && constant && bands >= 3 && !out->planar && live == LMPI_LANES) {
+            LMPI_UNROLL for (int l = 0; l < bands; l++) radial[k][l] *= lmpi_table_pole[l];
+            layout_write(bands, radial[k], out->at + e * out->stride, out->stride);
+            continue;
+        }
         const int direct = out->planar && live == LMPI_LANES;
         float *to = direct ? out->at + e : block;
         const size_t stride = direct ? out->stride : LMPI_LANES;
@@ -154,9 +160,9 @@ LMPI_INLINE void zonal_bands(int bands, int constant, const float *radius, const
     size_t e = 0;
     if (!constant)
         for (; e + side <= count; e += side)
-            zonal_blocks(CAP_SIDE_BY_SIDE, bands, radius, distance, e, count, out);
+            zonal_blocks(CAP_SIDE_BY_SIDE, bands, 0, radius, distance, e, count, out);
     for (; e < count; e += LMPI_LANES)
-        zonal_blocks(1, bands, radius, distance, e, count, out);
+        zonal_blocks(1, bands, constant, radius, distance, e, count, out);
 }
 
 static void kernel_zonal(int bands, const float *radius, const float *distance, size_t count,
