@@ -15,6 +15,7 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -191,6 +192,21 @@ static bool hide_and_wait(void *context, int output, base_error *error) {
     for (;;)
         syscall(SYS_futex, &word, 0 /* FUTEX_WAIT */, 0, NULL, NULL, 0);
     return true;
+}
+
+/* Takes as much CPU time as a mesh that is packed into a small file may need. */
+static bool run_for_seconds(void *context, int output, base_error *error) {
+    (void)context;
+    (void)error;
+    while (clock() < 3 * CLOCKS_PER_SEC)
+        continue;
+    return say(output, "done");
+}
+
+static void a_small_file_may_take_seconds(void **state) {
+    (void)state;
+    const sandbox_job job = { .subject = subject, .work = run_for_seconds };
+    assert_string_equal(run(&job), "done");
 }
 
 static void limits_end_the_work(void **state) {
@@ -415,6 +431,7 @@ int main(void) {
         cmocka_unit_test(files_come_from_the_parent_alone),
         cmocka_unit_test(files_are_opened_so_many_times),
         cmocka_unit_test(failures_and_crashes_are_errors),
+        cmocka_unit_test(a_small_file_may_take_seconds),
         cmocka_unit_test(limits_end_the_work),
         cmocka_unit_test(without_walls_no_work_is_done),
         cmocka_unit_test(every_escape_fails),
