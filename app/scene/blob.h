@@ -9,7 +9,7 @@
 #include "app/scene/scene.h"
 
 #define BLOB_MAGIC   "LAMPSCN"
-#define BLOB_VERSION 22u /* raise with any change of the layout or of what the importer makes */
+#define BLOB_VERSION 23u /* raise with any change of the layout or of what the importer makes */
 
 typedef enum blob_section {
     BLOB_VERTICES,

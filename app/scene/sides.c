@@ -179,12 +179,24 @@ static bool holds(const body *outer, const body *inner) {
     return true;
 }
 
+/* Whether a body stands in a room, whose floor, walls and ceiling it may touch. What is as large as
+ * the room along two axes, such as a lid, is rather a part of it. */
+static bool houses(const body *room, const body *inner) {
+    int equal = 0;
+    for (int k = 0; k < 3; k++) {
+        if (!(room->low[k] <= inner->low[k] && inner->high[k] <= room->high[k]))
+            return false;
+        equal += room->low[k] == inner->low[k] && inner->high[k] == room->high[k];
+    }
+    return equal < 2;
+}
+
 /* Whether a clockwise body is intended: a room with something in it, or a hollow. */
 static bool is_meant(const sides *s, const body *b) {
     for (size_t i = 0; i < s->body_count; i++) {
         const body *const other = &s->bodies[i];
         if (other->inside > 0.0 && other->closed &&
-            (holds(b, other) || (other->mesh == b->mesh && holds(other, b))))
+            (houses(b, other) || (other->mesh == b->mesh && holds(other, b))))
             return true;
     }
     return false;
