@@ -9,8 +9,8 @@
 /* Flips bodies that are wound clockwise, together with their normals, so that fronts face outwards.
  * A body is a surface that is closed, or nearly so, in one mesh or in several whose vertices meet:
  * of light that starts on its inner side at most an eighth gets out.
- * A clockwise body in which bodies of the other winding stand is a room, and one inside another body
- * of its own mesh is a hollow: both stay. Where most bodies are clockwise, open surfaces are
+ * A clockwise body in which bodies of the other winding stand is a room, and one inside another
+ * body of its own mesh is a hollow: both stay. Where most bodies are clockwise, open surfaces are
  * flipped as well. The meshes must share one space. Returns false if memory ran out. */
 bool sides_turn_outwards(scene_builder *builder, const uint32_t *meshes, size_t count);
 

@@ -2,6 +2,7 @@
 /* lampion.glsl, probe.glsl and ggx.glsl alone, as an engine includes them, against the library. */
 #include "tests/gpu/compute.h"
 #include "tests/oracle/check.h"
+#include "tests/oracle/oracle.h"
 
 #include <lampion/lobe.h>
 #include <lampion/probe.h>
@@ -86,6 +87,66 @@ static void coefficients_agree_with_the_library(void **state) {
         if (!(worst <= 2e-5))
             fail_msg("%d bands: %g above 2e-5", bands, worst);
     }
+}
+
+/* --- spheres ---------------------------------------------------------------------------------- */
+
+enum { SPHERES = 64 * 64 };
+
+/* The shader runs one thread per sphere: in[i] is its position and radius; out receives the
+ * irradiance of a surface at the origin whose normal is z. */
+static const char sphere_main[] =
+    "layout(local_size_x = 64) in;\n"
+    "layout(std430, binding = 0) buffer in_block { vec4 spheres[]; };\n"
+    "layout(std430, binding = 1) buffer out_block { float values[]; };\n"
+    "void main() {\n"
+    "    uint i = gl_GlobalInvocationID.x;\n"
+    "    lmp_cap cap = lmp_cap_of_sphere(spheres[i], vec3(0.0));\n"
+    "    values[i] = lmp_cap_irradiance(cap, vec3(0.0, 0.0, 1.0));\n"
+    "}\n";
+
+/* Makes a sphere at any angle, or where the horizon begins or ends to cut it, from ten thousand
+ * radii away to its middle, but for its surface, where cos a changes faster than float32 tells
+ * positions apart. */
+static void fill_sphere(float sphere[4]) {
+    const double ratio = pow(10, check_random_between(-4, 4)),
+                 r = fabs(ratio - 1) < 1e-2 ? 1.01 : ratio;
+    const double half = r > 1 ? asin(1 / r) : check_random_between(0, 3);
+    const double side = check_random() < 0.5 ? half : -half;
+    const double angle = check_random() < 0.5
+                             ? check_random_between(0, ORACLE_PI)
+                             : ORACLE_PI / 2 + side * check_random_between(0.9, 1.1);
+    const double around = check_random_between(0, 2 * ORACLE_PI);
+    sphere[0] = (float)(r * sin(angle) * cos(around));
+    sphere[1] = (float)(r * sin(angle) * sin(around));
+    sphere[2] = (float)(r * cos(angle));
+    sphere[3] = 1;
+}
+
+/* Returns how far the irradiance is off, in parts of that of a surface that faces the sphere. */
+static double irradiance_error(const float sphere[4], double irradiance) {
+    const double x = (double)sphere[0], y = (double)sphere[1], z = (double)sphere[2];
+    const double d = sqrt(x * x + y * y + z * z), sine = d < 1 ? d : 1 / d;
+    const double held = sine * sine / (1 + sqrt(1 - sine * sine)), open = d < 1 ? 2 - held : held;
+    return fabs(irradiance - oracle_irradiance(z / d, open)) / oracle_irradiance(1, open);
+}
+
+static void irradiance_under_spheres_is_that_of_what_is_seen(void **state) {
+    (void)state;
+    static float spheres[SPHERES][4];
+    double worst = 0;
+    for (int i = 0; i < SPHERES; i++)
+        fill_sphere(spheres[i]);
+    const GLuint program =
+        build_compute("#version 450 core\n#define LMP_BANDS 3\n", lampion_files, sphere_main);
+    float *values =
+        run_compute(program, spheres, sizeof spheres, SPHERES * sizeof(float), SPHERES / POINTS);
+    for (int i = 0; i < SPHERES; i++)
+        worst = fmax(worst, irradiance_error(spheres[i], (double)values[i]));
+    print_message("of the irradiance of a surface that faces the sphere: at most %.1e\n", worst);
+    CHECK_WITHIN(worst, 1e-5);
+    free(values);
+    glDeleteProgram(program);
 }
 
 /* --- lists ------------------------------------------------------------------------------------ */
@@ -258,6 +319,7 @@ static void ggx_lobes_agree_with_the_library(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coefficients_agree_with_the_library),
+        cmocka_unit_test(irradiance_under_spheres_is_that_of_what_is_seen),
         cmocka_unit_test(lists_name_every_band_once),
         cmocka_unit_test(irradiance_agrees_with_the_library),
         cmocka_unit_test(ggx_lobes_agree_with_the_library),
