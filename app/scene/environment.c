@@ -65,7 +65,8 @@ static bool open_studio(const environment_options *options, const scene *world, 
     e->studio = true;
     if (!options->name || is_dark(world)) /* no name: chosen because the scene is dark */
         e->faint = world->light_count;
-    return check_radiance(&e->light, options->strength, "studio", error);
+    return check_radiance(&e->light, options->strength, "studio", error) &&
+           check_radiance(&e->backdrop, options->strength, "studio", error);
 }
 
 const char *environment_choose(const environment_options *options, const scene *world) {

@@ -224,6 +224,22 @@ static void the_studio_shines_where_what_glows_lights_little(void **state) {
     }
 }
 
+static void the_strength_scales_what_shines_and_what_is_seen(void **state) {
+    (void)state;
+    const scene world = lit_scene();
+    environment e[2];
+    base_error error;
+    for (int i = 0; i < 2; i++)
+        assert_true(
+            environment_open(&(environment_options) { .name = "studio", .strength = i ? 4 : 1 },
+                             &world, &e[i], &error));
+    assert_true(e[0].light.rgb[0] > 0 && e[0].backdrop.rgb[0] > 0);
+    assert_true(e[1].light.rgb[0] == 4 * e[0].light.rgb[0]);
+    assert_true(e[1].backdrop.rgb[0] == 4 * e[0].backdrop.rgb[0]);
+    environment_free(&e[0]);
+    environment_free(&e[1]);
+}
+
 static void the_studio_shines_where_nothing_else_does(void **state) {
     (void)state;
     const environment_options none = ENVIRONMENT_DEFAULTS;
@@ -370,6 +386,7 @@ int main(void) {
         cmocka_unit_test(crosses_are_unfolded),
         cmocka_unit_test(a_large_image_has_the_coefficients_of_all_its_pixels),
         cmocka_unit_test(what_is_no_environment_is_refused),
+        cmocka_unit_test(the_strength_scales_what_shines_and_what_is_seen),
         cmocka_unit_test(the_studio_shines_where_nothing_else_does),
         cmocka_unit_test(the_studio_shines_where_what_glows_lights_little),
         cmocka_unit_test(a_sun_in_an_image_becomes_a_cap),
