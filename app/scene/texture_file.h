@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* texture_file.h - textures that materials refer to by file name, each made once. */
+/* texture_file.h - textures that materials refer to by name, each made once. */
 #ifndef LAMPION_SCENE_TEXTURE_FILE_H
 #define LAMPION_SCENE_TEXTURE_FILE_H
 
@@ -15,5 +15,17 @@ typedef struct texture_files {
  * unsupported, and *use stays as it is. Returns false only if memory ran out. */
 bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, scene_wrap wrap_u,
                       scene_wrap wrap_v, scene_texture_use *use, base_error *error);
+
+/* An encoded image that lies in the scene's own file. */
+typedef struct texture_embedded {
+    const char *name;
+    const void *data; /* must stay in place as long as the texture_files */
+    size_t size;
+} texture_embedded;
+
+/* Does as texture_file_use with an image that has been read. */
+bool texture_embedded_use(texture_files *files, const texture_embedded *image, uint32_t srgb,
+                          scene_wrap wrap_u, scene_wrap wrap_v, scene_texture_use *use,
+                          base_error *error);
 
 #endif

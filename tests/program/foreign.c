@@ -95,6 +95,46 @@ static void emission_of_fixed_pipelines_is_no_lamp(void **state) {
     scene_free(&s);
 }
 
+/* A PNG of one red pixel, in base64. */
+#define RED_PIXEL                                                                                  \
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAA"             \
+    "AElFTkSuQmCC"
+
+/* A triangle of an FBX whose black material has a texture that lies in the file, under a path of
+ * the author's computer. */
+static const char fbx_with_image[] =
+    "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\nFBXHeaderVersion: 1003\n"
+    "FBXVersion: 7400\n}\nObjects:  {\nGeometry: 10, \"Geometry::\", \"Mesh\" {\n"
+    "Vertices: *9 {\na: 0,0,0,1,0,0,0,1,0\n}\nPolygonVertexIndex: *3 {\na: 0,1,-3\n}\n"
+    "LayerElementUV: 0 {\nName: \"m\"\nMappingInformationType: \"ByPolygonVertex\"\n"
+    "ReferenceInformationType: \"Direct\"\nUV: *6 {\na: 0,0,1,0,0,1\n}\n}\n"
+    "LayerElementMaterial: 0 {\nName: \"\"\nMappingInformationType: \"AllSame\"\n"
+    "ReferenceInformationType: \"IndexToDirect\"\nMaterials: *1 {\na: 0\n}\n}\n"
+    "Layer: 0 {\nLayerElement:  {\nType: \"LayerElementMaterial\"\nTypedIndex: 0\n}\n"
+    "LayerElement:  {\nType: \"LayerElementUV\"\nTypedIndex: 0\n}\n}\n}\n"
+    "Model: 11, \"Model::m\", \"Mesh\" {\nVersion: 232\n}\n"
+    "Material: 12, \"Material::m\", \"\" {\nVersion: 102\nShadingModel: \"phong\"\n"
+    "Properties70:  {\nP: \"DiffuseColor\", \"Color\", \"\", \"A\",0,0,0\n}\n}\n"
+    "Video: 13, \"Video::t\", \"Clip\" {\nType: \"Clip\"\nUseMipMap: 0\n"
+    "Filename: \"C:\\art\\t.png\"\nRelativeFilename: \"..\\t.png\"\nContent: , \"" RED_PIXEL "\"\n"
+    "}\nTexture: 14, \"Texture::t\", \"\" {\nType: \"TextureVideoClip\"\nVersion: 202\n"
+    "TextureName: \"Texture::t\"\nMedia: \"Video::t\"\nFileName: \"C:\\art\\t.png\"\n"
+    "RelativeFilename: \"..\\t.png\"\n}\n}\nConnections:  {\nC: \"OO\",11,0\n"
+    "C: \"OO\",10,11\nC: \"OO\",12,11\nC: \"OP\",14,12, \"DiffuseColor\"\n"
+    "C: \"OO\",13,14\n}\n";
+
+static void an_fbx_shows_the_images_that_lie_in_it(void **state) {
+    (void)state;
+    scene s = load_text("image.fbx", fbx_with_image);
+    const scene_material *const material = material_of(&s, 0);
+    assert_int_equal(s.texture_count, 1);
+    assert_int_equal(material->base_color_map.texture, 0);
+    assert_int_equal(s.unsupported_count, 0);
+    for (int k = 0; k < 3; k++) /* the texture takes the place of black */
+        assert_true(material->base_color[k] == 1);
+    scene_free(&s);
+}
+
 /* A file whose vertices are all white is not reported. */
 static void colors_of_vertices_are_told_of(void **state) {
     (void)state;
@@ -273,6 +313,7 @@ int main(void) {
         cmocka_unit_test(a_collada_counts_opacity_as_its_exporter_does),
         cmocka_unit_test(blanks_before_a_number_do_not_count),
         cmocka_unit_test(emission_of_fixed_pipelines_is_no_lamp),
+        cmocka_unit_test(an_fbx_shows_the_images_that_lie_in_it),
         cmocka_unit_test(colors_of_vertices_are_told_of),
         cmocka_unit_test(a_format_whose_z_is_up_stands),
         cmocka_unit_test(a_collada_stands_by_its_up_axis),

@@ -4,6 +4,7 @@
 #include "app/scene/load/assimp_library.h"
 #include "app/scene/phong.h"
 #include "app/scene/texture_file.h"
+#include "app/scene/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,17 +56,50 @@ static scene_wrap wrap_of(const struct aiMaterial *from, const char *key, unsign
                                              : SCENE_WRAP_REPEAT;
 }
 
-static bool read_map(const struct aiMaterial *from, enum aiTextureType type, uint32_t srgb,
-                     texture_files *files, scene_texture_use *use, base_error *error) {
-    char path[MAXLEN];
-    if (!read_text(from, "$tex.file", type, path) || !path[0])
-        return true;
+static const char *last_part(const char *path) {
+    for (const char *next; (next = strpbrk(path, "/\\"));)
+        path = next + 1;
+    return path;
+}
+
+/* Returns the image in the scene's file that a material means, by its number after a star or by the
+ * last part of its name, or NULL. */
+static const struct aiTexture *find_embedded(const struct aiScene *imported, const char *path) {
     if (path[0] == '*') {
-        builder_unsupported(files->images.builder, "embedded texture", "material", 1);
+        char *end;
+        const unsigned long number = strtoul(path + 1, &end, 10);
+        return end > path + 1 && number < imported->mNumTextures ? imported->mTextures[number]
+                                                                 : NULL;
+    }
+    for (unsigned i = 0; i < imported->mNumTextures; i++)
+        if (strcmp(last_part(imported->mTextures[i]->mFilename.data), last_part(path)) == 0)
+            return imported->mTextures[i];
+    return NULL;
+}
+
+/* What a material is read from. */
+typedef struct material_source {
+    const struct aiScene *imported;
+    const struct aiMaterial *material;
+    texture_files *files;
+} material_source;
+
+static bool read_map(const material_source *from, enum aiTextureType type, uint32_t srgb,
+                     scene_texture_use *use, base_error *error) {
+    char path[MAXLEN];
+    if (!read_text(from->material, "$tex.file", type, path) || !path[0])
+        return true;
+    const struct aiTexture *const found = find_embedded(from->imported, path);
+    const scene_wrap wrap_u = wrap_of(from->material, "$tex.mapmodeu", type),
+                     wrap_v = wrap_of(from->material, "$tex.mapmodev", type);
+    if (!found && path[0] != '*')
+        return texture_file_use(from->files, path, srgb, wrap_u, wrap_v, use, error);
+    if (!found || !found->pcData || found->mHeight > 0) { /* height: texels, not an encoded image */
+        builder_unsupported(from->files->images.builder, "embedded texture", "material", 1);
         return true;
     }
-    return texture_file_use(files, path, srgb, wrap_of(from, "$tex.mapmodeu", type),
-                            wrap_of(from, "$tex.mapmodev", type), use, error);
+    const texture_embedded image = { path, found->pcData, found->mWidth };
+    return texture_embedded_use(from->files, &image, srgb, wrap_u, wrap_v, use, error);
 }
 
 /* Treats emission up to 1 as a part of how a surface looks, as fixed-function pipelines do: the
@@ -95,8 +129,17 @@ static bool is_opacity_inverted(const struct aiScene *imported, const char *name
     return found && dot && strcasecmp(dot, ".dae") == 0;
 }
 
-static bool read_material(const struct aiMaterial *from, bool inverted, texture_files *files,
-                          base_error *error) {
+/* Lets a texture show that has a black diffuse color, which it replaces in many formats. */
+static void whiten_textured(const struct aiMaterial *from, float diffuse[3]) {
+    char path[MAXLEN];
+    if (!(rgb_brightest(diffuse) > 0.0f) &&
+        read_text(from, "$tex.file", aiTextureType_DIFFUSE, path) && path[0])
+        diffuse[0] = diffuse[1] = diffuse[2] = 1.0f;
+}
+
+static bool read_material(const material_source *parts, bool inverted, base_error *error) {
+    const struct aiMaterial *const from = parts->material;
+    scene_builder *const builder = parts->files->images.builder;
     char name[MAXLEN] = "";
     phong factors = { .diffuse = { 0.6f, 0.6f, 0.6f },
                       .exponent = number_of(from, "$mat.shininess", 0.0f),
@@ -105,15 +148,16 @@ static bool read_material(const struct aiMaterial *from, bool inverted, texture_
         factors.opacity = 1.0f - factors.opacity;
     read_text(from, "?mat.name", 0, name);
     read_color(from, "$clr.diffuse", factors.diffuse);
+    whiten_textured(from, factors.diffuse);
     read_color(from, "$clr.specular", factors.specular);
     read_color(from, "$clr.emissive", factors.emission);
-    scene_material *to = builder_material(files->images.builder, name);
+    scene_material *to = builder_material(builder, name);
     if (!to)
-        return base_fail(error, files->sources->subject, "does not fit into memory");
+        return base_fail(error, parts->files->sources->subject, "does not fit into memory");
     phong_apply(&factors, to);
-    const bool ok = read_map(from, aiTextureType_DIFFUSE, 1, files, &to->base_color_map, error) &&
-                    read_map(from, aiTextureType_NORMALS, 0, files, &to->normal_map, error) &&
-                    read_map(from, aiTextureType_EMISSIVE, 1, files, &to->emission_map, error);
+    const bool ok = read_map(parts, aiTextureType_DIFFUSE, 1, &to->base_color_map, error) &&
+                    read_map(parts, aiTextureType_NORMALS, 0, &to->normal_map, error) &&
+                    read_map(parts, aiTextureType_EMISSIVE, 1, &to->emission_map, error);
     soften_emission(to);
     return ok;
 }
@@ -143,8 +187,10 @@ bool assimp_add_materials(const struct aiScene *imported, source_set *sources,
     texture_files files = { .sources = sources, .images.builder = builder };
     bool ok = true;
     const bool inverted = is_opacity_inverted(imported, sources->subject);
-    for (unsigned i = 0; ok && i < imported->mNumMaterials; i++)
-        ok = read_material(imported->mMaterials[i], inverted, &files, error);
+    for (unsigned i = 0; ok && i < imported->mNumMaterials; i++) {
+        const material_source parts = { imported, imported->mMaterials[i], &files };
+        ok = read_material(&parts, inverted, error);
+    }
     free(files.images.items);
     if (ok)
         drop_maps_without_coordinates(imported, builder);
