@@ -1,6 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/texture_file.h"
 
+#include <string.h>
+
+const char *texture_file_base_name(const char *path) {
+    for (const char *next; (next = strpbrk(path, "/\\"));)
+        path = next + 1;
+    return path;
+}
+
 bool texture_embedded_use(texture_files *files, const texture_embedded *image, uint32_t srgb,
                           scene_wrap wrap_u, scene_wrap wrap_v, scene_texture_use *use,
                           base_error *error) {
@@ -25,8 +33,12 @@ bool texture_embedded_use(texture_files *files, const texture_embedded *image, u
 bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, scene_wrap wrap_u,
                       scene_wrap wrap_v, scene_texture_use *use, base_error *error) {
     const source *found;
-    source_state state;
+    source_state state, beside;
     if (!sources_read_optional(files->sources, path, &found, &state, error))
+        return false;
+    const char *const name = texture_file_base_name(path);
+    if (!found && name > path &&
+        !sources_read_optional(files->sources, name, &found, &beside, error))
         return false;
     if (!found) {
         builder_unsupported_file(files->images.builder, path, source_state_nouns[state]);

@@ -11,8 +11,13 @@ typedef struct texture_files {
     texture_images images;
 } texture_files;
 
-/* Finds or makes the texture of a file. A file that cannot be read or decoded is noted as
- * unsupported, and *use stays as it is. Returns false only if memory ran out. */
+/* Returns the last part of a path, whose parts end at slashes or backslashes. */
+const char *texture_file_base_name(const char *path);
+
+/* Finds or makes the texture of a file, which lies where the path leads or, if none can be read
+ * there, beside the scene: paths are often those of another computer. A file that cannot be read or
+ * decoded is noted as unsupported, and *use stays as it is. Returns false only if memory ran out.
+ */
 bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, scene_wrap wrap_u,
                       scene_wrap wrap_v, scene_texture_use *use, base_error *error);
 

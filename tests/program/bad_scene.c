@@ -366,7 +366,6 @@ static void a_scene_goes_without_files_outside_the_folder(void **state) {
     char text[1024], expected[256];
     mkdir(in_folder("room"), 0700);
     folder_write("t.png", pixel_png, sizeof pixel_png);
-    folder_write("room/t.png", pixel_png, sizeof pixel_png);
     folder_write_text("room/outside.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
                                           "usemtl m\nf 1 2 3\n");
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {

@@ -274,6 +274,25 @@ static void an_image_that_cannot_be_decoded_is_unsupported(void **state) {
     write_gray(7, 0);
 }
 
+/* Paths of another computer, or folders that were not copied: what lies beside the scene under the
+ * same name is meant. */
+static void an_image_beside_the_scene_is_found_by_its_name(void **state) {
+    (void)state;
+    static const char *const names[] = { "C:\\art\\a.png", "/home/somebody/a.png", "../maps/a.png",
+                                         "maps/a.png", "file:///C:/art/a.png" };
+    char text[256];
+    folder_write_text("beside.obj", "mtllib beside.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                    "usemtl m\nf 1/1 2/1 3/1\n");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(text, sizeof text, "newmtl m\nmap_Kd %s\n", names[i]);
+        folder_write_text("beside.mtl", text);
+        scene s = load(in_folder("beside.obj"));
+        assert_int_equal(s.texture_count, 1);
+        assert_int_equal(s.unsupported_count, 0);
+        scene_free(&s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(images_are_decoded_side_by_side),
@@ -281,6 +300,7 @@ int main(void) {
         cmocka_unit_test(an_image_that_cannot_be_decoded_is_unsupported),
         cmocka_unit_test(a_gltf_stores_an_image_once),
         cmocka_unit_test(an_obj_stores_an_image_once),
+        cmocka_unit_test(an_image_beside_the_scene_is_found_by_its_name),
         cmocka_unit_test(a_webp_of_a_gltf_is_its_base_color),
         cmocka_unit_test(formats_that_no_page_names_are_refused),
         cmocka_unit_test(few_bytes_are_not_many_pixels),

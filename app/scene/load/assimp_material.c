@@ -56,12 +56,6 @@ static scene_wrap wrap_of(const struct aiMaterial *from, const char *key, unsign
                                              : SCENE_WRAP_REPEAT;
 }
 
-static const char *last_part(const char *path) {
-    for (const char *next; (next = strpbrk(path, "/\\"));)
-        path = next + 1;
-    return path;
-}
-
 /* Returns the image in the scene's file that a material means, by its number after a star or by the
  * last part of its name, or NULL. */
 static const struct aiTexture *find_embedded(const struct aiScene *imported, const char *path) {
@@ -72,7 +66,8 @@ static const struct aiTexture *find_embedded(const struct aiScene *imported, con
                                                                  : NULL;
     }
     for (unsigned i = 0; i < imported->mNumTextures; i++)
-        if (strcmp(last_part(imported->mTextures[i]->mFilename.data), last_part(path)) == 0)
+        if (strcmp(texture_file_base_name(imported->mTextures[i]->mFilename.data),
+                   texture_file_base_name(path)) == 0)
             return imported->mTextures[i];
     return NULL;
 }
