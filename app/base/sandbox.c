@@ -31,9 +31,9 @@
 #define MEMORY_PER_BYTE 40
 #define OUTPUT_BASE     (512ull << 20)
 #define OUTPUT_PER_BYTE 24
-#define CPU_BASE        4.0    /* seconds: Draco packs a million triangles into a megabyte */
-#define CPU_PER_BYTE    0.5e-6 /* seconds */
-#define TICK            20     /* milliseconds between checks of the clock */
+#define CPU_BASE        4.0  /* seconds */
+#define CPU_PER_BYTE    4e-6 /* seconds: Draco packs a million triangles into a megabyte */
+#define TICK            20   /* milliseconds between checks of the clock */
 #define INPUT_MAX       (8ull << 30)
 #define FILES_MAX       4096
 
@@ -59,7 +59,7 @@ static void set_limit(pid_t process, __rlimit_resource_t resource, uint64_t soft
 }
 
 static double cpu_seconds(uint64_t input_bytes) {
-    return (CPU_BASE + CPU_PER_BYTE * (double)input_bytes) * (SANITIZED ? 20.0 : 1.0);
+    return (CPU_BASE + CPU_PER_BYTE * (double)input_bytes) * (SANITIZED ? 8.0 : 1.0);
 }
 
 /* Returns how much address space the program already uses, including that of a graphics driver. */
