@@ -2,8 +2,9 @@
 /* sequence.h - the random numbers of a pixel's rays. Pixels are numbered along a Morton curve and
  * share one low-discrepancy sequence, in which the rays of each pixel follow those of the pixel
  * before: so the rays of every square of pixels, which a filter combines, are as evenly distributed
- * as those of one pixel (Ahmed and Wonka 2020). Owen scrambling by Laine and Karras's hash (Burley
- * 2020). */
+ * as those of one pixel. At each of its forks the curve takes one side first at random, because
+ * numbers that come back at regular distances would show (Ahmed and Wonka 2020). Owen scrambling by
+ * Laine and Karras's hash (Burley 2020). */
 #ifndef LAMPION_RENDER_SHADOW_SEQUENCE_H
 #define LAMPION_RENDER_SHADOW_SEQUENCE_H
 
@@ -75,8 +76,10 @@ typedef struct shadow_sequence {
 static inline shadow_sequence shadow_sequence_of(uint32_t x, uint32_t y, uint32_t rays,
                                                  uint32_t seed) {
     const uint32_t morton = shadow_spread(x % SHADOW_TILE) | shadow_spread(y % SHADOW_TILE) << 1;
-    const uint32_t tile = shadow_hash(x / SHADOW_TILE, y / SHADOW_TILE);
-    return (shadow_sequence) { morton * rays, shadow_hash(seed, tile) };
+    const uint32_t tile = shadow_hash(seed, shadow_hash(x / SHADOW_TILE, y / SHADOW_TILE));
+    /* 20 bits, of which each is flipped or not by those above it */
+    const uint32_t number = shadow_scramble(morton << 12, shadow_hash(tile, 4)) >> 12;
+    return (shadow_sequence) { number * rays, tile };
 }
 
 /* Draws three numbers in 0 … 1 for ray number `ray`: one to choose the light, two for the position
