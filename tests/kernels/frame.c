@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #define GOLDEN_BALLS  0x4ade70437cf5ede1
-#define GOLDEN_ATRIUM 0xfdfc42f217b23c4c
+#define GOLDEN_ATRIUM 0xae479071dedf9a0a
 
 enum { WIDTH = 80, HEIGHT = 45, BANDS = 6 };
 
