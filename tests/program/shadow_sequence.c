@@ -4,6 +4,8 @@
 
 #include "tests/oracle/check.h"
 
+#include <string.h>
+
 enum { SIZE = 64, RAYS = 2, SEED = 7 };
 
 /* Draws the numbers of a pixel's ray in steps of 1 / `steps`. */
