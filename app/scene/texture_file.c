@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/texture_file.h"
 
+#include "app/base/file.h"
+
 #include <string.h>
 
 const char *texture_file_base_name(const char *path) {
-    for (const char *next; (next = strpbrk(path, "/\\"));)
-        path = next + 1;
-    return path;
+    const char *const backslash = strrchr(path, '\\');
+    return file_base_name(backslash ? backslash + 1 : path);
 }
 
 bool texture_embedded_use(texture_files *files, const texture_embedded *image, uint32_t srgb,

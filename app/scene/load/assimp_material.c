@@ -65,9 +65,9 @@ static const struct aiTexture *find_embedded(const struct aiScene *imported, con
         return end > path + 1 && number < imported->mNumTextures ? imported->mTextures[number]
                                                                  : NULL;
     }
+    const char *const name = texture_file_base_name(path);
     for (unsigned i = 0; i < imported->mNumTextures; i++)
-        if (strcmp(texture_file_base_name(imported->mTextures[i]->mFilename.data),
-                   texture_file_base_name(path)) == 0)
+        if (strcmp(texture_file_base_name(imported->mTextures[i]->mFilename.data), name) == 0)
             return imported->mTextures[i];
     return NULL;
 }
