@@ -17,6 +17,7 @@ typedef struct box {
     int parts;       /* number of materials that the faces take in turn */
     const char *tag; /* text before the box: "o name " or nothing */
     float shift;     /* along x */
+    const float *y;  /* its low and high y, or NULL: low and high */
 } box;
 
 static void add_box(char *text, size_t size, const box *b, int number) {
@@ -24,7 +25,9 @@ static void add_box(char *text, size_t size, const box *b, int number) {
     for (int i = 0; i < 8; i++)
         used += (size_t)snprintf(text + used, size - used, "v %g %g %g\n",
                                  (double)((i & 4 ? b->high : b->low) + b->shift),
-                                 (double)(i & 2 ? b->high : b->low),
+                                 (double)(b->y    ? b->y[i >> 1 & 1]
+                                          : i & 2 ? b->high
+                                                  : b->low),
                                  (double)(i & 1 ? b->high : b->low));
     used += (size_t)snprintf(text + used, size - used, "%s", b->tag);
     for (int i = 0; i < b->faces; i++) {
@@ -78,7 +81,7 @@ static void a_body_of_several_materials_shows_its_outside(void **state) {
     (void)state;
     for (int parts = 1; parts <= 6; parts++)
         for (int clockwise = 0; clockwise < 2; clockwise++) {
-            scene s = load_boxes(&(box) { -2, 2, clockwise, 6, parts, "", 0 }, 1);
+            scene s = load_boxes(&(box) { -2, 2, clockwise, 6, parts, "", 0, NULL }, 1);
             assert_int_equal(s.mesh_count, parts == 1 ? 1 : 6);
             assert_unit_and_inside(&s);
             assert_int_equal(outwards(&s, 0, 2), 1);
@@ -90,7 +93,7 @@ static void a_body_of_several_materials_shows_its_outside(void **state) {
 /* One body is mirrored, like a part that somebody copied to the other side. */
 static void each_body_is_turned_by_itself(void **state) {
     (void)state;
-    const box boxes[] = { { -3, -2, false, 6, 1, "", 0 }, { 2, 3, true, 6, 2, "", 0 } };
+    const box boxes[] = { { -3, -2, false, 6, 1, "", 0, NULL }, { 2, 3, true, 6, 2, "", 0, NULL } };
     scene s = load_boxes(boxes, 2);
     assert_int_equal(outwards(&s, -2.5f, 0.5f), 1);
     assert_int_equal(outwards(&s, 2.5f, 0.5f), 1);
@@ -102,8 +105,8 @@ static void each_body_is_turned_by_itself(void **state) {
 static void what_a_body_holds_tells_whether_it_is_a_room(void **state) {
     (void)state;
     for (int clockwise = 0; clockwise < 2; clockwise++) {
-        const box boxes[] = { { -4, 4, true, 6, 1, "o walls\n", 0 },
-                              { -1, 1, clockwise, 6, 1, "o chest\n", 0 } };
+        const box boxes[] = { { -4, 4, true, 6, 1, "o walls\n", 0, NULL },
+                              { -1, 1, clockwise, 6, 1, "o chest\n", 0, NULL } };
         scene s = load_boxes(boxes, 2);
         assert_int_equal(outwards(&s, 0, 1), 1);
         assert_int_equal(outwards(&s, 0, 4), clockwise ? 1 : -1);
@@ -114,8 +117,8 @@ static void what_a_body_holds_tells_whether_it_is_a_room(void **state) {
 /* Furniture stands on the floor and against a wall. */
 static void what_touches_a_room_from_inside_is_in_it(void **state) {
     (void)state;
-    const box boxes[] = { { -4, 4, true, 6, 1, "o walls\n", 0 },
-                          { -4, -2, false, 6, 1, "o chest\n", 3 } };
+    const box boxes[] = { { -4, 4, true, 6, 1, "o walls\n", 0, NULL },
+                          { -4, -2, false, 6, 1, "o chest\n", 3, NULL } };
     scene s = load_boxes(boxes, 2);
     assert_true(scene_is_inside(&s));
     scene_free(&s);
@@ -124,9 +127,20 @@ static void what_touches_a_room_from_inside_is_in_it(void **state) {
     scene_free(&s);
 }
 
+/* A slab from wall to wall is a part of the body that it divides. */
+static void what_is_as_wide_as_a_body_makes_it_no_room(void **state) {
+    (void)state;
+    static const float slab[] = { 2, 3 };
+    const box boxes[] = { { -4, 4, true, 6, 1, "o walls\n", 0, NULL },
+                          { -4, 4, false, 6, 1, "o slab\n", 0, slab } };
+    scene s = load_boxes(boxes, 2);
+    assert_false(scene_is_inside(&s));
+    scene_free(&s);
+}
+
 static void a_hollow_stays_hollow(void **state) {
     (void)state;
-    const box boxes[] = { { -4, 4, false, 6, 1, "", 0 }, { -1, 1, true, 6, 1, "", 0 } };
+    const box boxes[] = { { -4, 4, false, 6, 1, "", 0, NULL }, { -1, 1, true, 6, 1, "", 0, NULL } };
     scene s = load_boxes(boxes, 2);
     assert_int_equal(outwards(&s, 0, 4), 1);
     assert_int_equal(outwards(&s, 0, 1), -1);
@@ -136,7 +150,7 @@ static void a_hollow_stays_hollow(void **state) {
 /* A box without a lid follows the bodies beside it; without any, it is kept as it is. */
 static void what_is_open_goes_with_the_bodies(void **state) {
     (void)state;
-    const box boxes[] = { { -4, -2, true, 5, 1, "", 0 }, { 2, 3, true, 6, 1, "", 0 } };
+    const box boxes[] = { { -4, -2, true, 5, 1, "", 0, NULL }, { 2, 3, true, 6, 1, "", 0, NULL } };
     scene s = load_boxes(boxes, 2);
     assert_int_equal(outwards(&s, 2.5f, 0.5f), 1);
     assert_int_equal(outwards(&s, -3, 1), 1);
@@ -186,6 +200,7 @@ int main(void) {
         cmocka_unit_test(each_body_is_turned_by_itself),
         cmocka_unit_test(what_a_body_holds_tells_whether_it_is_a_room),
         cmocka_unit_test(what_touches_a_room_from_inside_is_in_it),
+        cmocka_unit_test(what_is_as_wide_as_a_body_makes_it_no_room),
         cmocka_unit_test(a_hollow_stays_hollow),
         cmocka_unit_test(what_is_open_goes_with_the_bodies),
         cmocka_unit_test(an_stl_is_turned_whatever_its_normals_say),
