@@ -19,6 +19,10 @@
 #define FEW_AHEAD   4
 #define FEW_SUMS    (FEW_BLOCKS * (FEW_BLOCKS + 1) / 2 * FEW_ORDERS)
 
+/* Up to this many bands R_l are computed where lights are begun. More would fill the processor's
+ * window before the next register is begun. */
+#define FEW_AT_BEGIN 8
+
 /* Up to this many bands straight-line code takes all blocks at once; and the number of those
  * blocks. */
 #define FEW_STRAIGHT        10
@@ -42,6 +46,11 @@ typedef struct few_lanes {
     vf rgb[3], radial[FEW_BANDS];
 } few_lanes;
 
+/* Planes of lights: centers, radii and radiances. */
+typedef struct few_members {
+    const float *at[7];
+} few_members;
+
 typedef struct few_work {
     few_lanes ahead[FEW_AHEAD];
     vf color[LMPI_LANES][3];
@@ -49,6 +58,7 @@ typedef struct few_work {
     const float *rgb;
     float LMPI_ALIGNED planes[FEW_PLANES];
     float LMPI_ALIGNED rows[LMPI_LANES * FEW_ROW];
+    float LMPI_ALIGNED members[7][FEW_AHEAD * LMPI_LANES];
 } few_work;
 
 /* Returns element i, or the last one if that comes before. */
@@ -67,20 +77,17 @@ LMPI_INLINE vf few_load_apart(const float *array, size_t stride, size_t i, size_
     return vf_join(quarters);
 }
 
-/* Loads elements i, i + 1, … of an array, which is a plane or not; lanes past the last element
- * repeat it. */
-LMPI_INLINE vf few_load(int plane, const float *array, size_t stride, size_t i, size_t live) {
+/* Loads `live` elements of a plane; lanes past the last element repeat it. */
+LMPI_INLINE vf few_load(const float *plane, size_t live) {
     static const float LMPI_ALIGNED number[16] = { 0, 1, 2,  3,  4,  5,  6,  7,
                                                    8, 9, 10, 11, 12, 13, 14, 15 };
     /* by itself, because a register would wait for a plane's stores */
     if (live == 1)
-        return vf_set(lights_at(array, stride, i));
-    if (!plane)
-        return few_load_apart(array, stride, i, live);
+        return vf_set(*plane);
     if (live == LMPI_LANES)
-        return vf_load(array + i);
-    return vf_select_less(vf_load(number), vf_set((float)live), vf_load_first(array + i, (int)live),
-                          vf_set(array[i + live - 1]));
+        return vf_load(plane);
+    return vf_select_less(vf_load(number), vf_set((float)live), vf_load_first(plane, (int)live),
+                          vf_set(plane[live - 1]));
 }
 
 /* Weakens lights i, i + 1, … by their visibility at a point, element `element` of the call. */
@@ -93,20 +100,28 @@ LMPI_INLINE void few_hide(const lmpi_kernel_lights *lights, size_t i, size_t liv
     cap->t_full = cap->t_full * visible;
 }
 
-LMPI_INLINE void few_begin(int planes, const lmpi_kernel_lights *lights, size_t i, size_t live,
-                           const lmpi_kernel_vec3 *points, size_t element, few_lanes *lanes) {
+/* Returns the planes of the lights from light i on, which lie in planes. */
+LMPI_INLINE few_members few_members_at(const lmpi_kernel_lights *lights, size_t i) {
     const lmp_vec3_array *center = &lights->center, *radiance = &lights->radiance;
-    cap_lanes cap =
-        cap_from(few_load(planes, center->x, center->stride, i, live) - points->x[element],
-                 few_load(planes, center->y, center->stride, i, live) - points->y[element],
-                 few_load(planes, center->z, center->stride, i, live) - points->z[element],
-                 few_load(planes, lights->radius.at, lights->radius.stride, i, live), 0);
-    if (__builtin_expect(lights->visibility != NULL, 0))
-        few_hide(lights, i, live, element, &cap);
-    lanes->radial[0] = accumulate_begin(cap, &lanes->light);
-    lanes->rgb[0] = few_load(planes, radiance->x, radiance->stride, i, live);
-    lanes->rgb[1] = few_load(planes, radiance->y, radiance->stride, i, live);
-    lanes->rgb[2] = few_load(planes, radiance->z, radiance->stride, i, live);
+    return (few_members) { { center->x + i, center->y + i, center->z + i, lights->radius.at + i,
+                             radiance->x + i, radiance->y + i, radiance->z + i } };
+}
+
+/* Copies the lights from light i to `end`, which do not lie in planes, into some. Written once for
+ * all numbers of bands, because this is long code. */
+static LMPI_NOINLINE few_members few_gather(const lmpi_kernel_lights *lights, size_t i, size_t end,
+                                            float (*to)[FEW_AHEAD * LMPI_LANES]) {
+    const lmp_vec3_array *center = &lights->center, *radiance = &lights->radiance;
+    const size_t radius = lights->radius.stride;
+    const size_t strides[7] = { center->stride,   center->stride,   center->stride,  radius,
+                                radiance->stride, radiance->stride, radiance->stride };
+    const few_members from = few_members_at(lights, 0);
+    LMPI_ROLLED for (size_t k = 0; i + k < end; k += LMPI_LANES) {
+        const size_t at = i + k, live = layout_live(end, at);
+        LMPI_UNROLL for (int m = 0; m < 7; m++)
+            vf_store(to[m] + k, few_load_apart(from.at[m], strides[m], at, live));
+    }
+    return (few_members) { { to[0], to[1], to[2], to[3], to[4], to[5], to[6] } };
 }
 
 /* Whether all members of lights lie in planes. */
@@ -116,17 +131,26 @@ LMPI_INLINE int few_are_planes(const lmpi_kernel_lights *lights) {
            lights->radiance.stride == plane;
 }
 
-/* Begins the lights from light i to `end`. Written once for all numbers of bands, because loading
- * lights that lie apart is long code. */
-static LMPI_NOINLINE void few_begin_all(const lmpi_kernel_lights *lights, size_t i, size_t end,
-                                        const lmpi_kernel_vec3 *points, size_t element,
-                                        few_lanes *lanes) {
-    if (few_are_planes(lights))
-        LMPI_ROLLED for (; i < end; i += LMPI_LANES, lanes++)
-            few_begin(1, lights, i, layout_live(end, i), points, element, lanes);
-    else
-        LMPI_ROLLED for (; i < end; i += LMPI_LANES, lanes++)
-            few_begin(0, lights, i, layout_live(end, i), points, element, lanes);
+/* Computes R_l of all bands. */
+LMPI_INLINE void few_radial(int bands, few_lanes *lanes) {
+    const accumulate_tile all = { 0, bands, 0, bands };
+    accumulate_radial(bands, all, 1, &lanes->light, lanes->radial);
+}
+
+/* Begins `live` lights at one point: those from light i on, element k of the planes. */
+LMPI_INLINE void few_begin(int bands, const lmpi_kernel_lights *lights, const few_members *members,
+                           size_t i, size_t k, size_t live, const lmpi_kernel_vec3 *points,
+                           size_t element, few_lanes *lanes) {
+    cap_lanes cap = cap_from(few_load(members->at[0] + k, live) - points->x[element],
+                             few_load(members->at[1] + k, live) - points->y[element],
+                             few_load(members->at[2] + k, live) - points->z[element],
+                             few_load(members->at[3] + k, live), 0);
+    if (__builtin_expect(lights->visibility != NULL, 0))
+        few_hide(lights, i + k, live, element, &cap);
+    lanes->radial[0] = accumulate_begin(cap, &lanes->light);
+    if (bands <= FEW_AT_BEGIN)
+        few_radial(bands, lanes);
+    LMPI_UNROLL for (int c = 0; c < 3; c++) lanes->rgb[c] = few_load(members->at[4 + c] + k, live);
 }
 
 /* Returns the bands of all blocks that begin with orders below `first`: a block has the bands from
@@ -252,10 +276,14 @@ LMPI_INLINE void few_lights(int bands, int straight, const lmpi_kernel_lights *l
     const size_t left = lights->count - i;
     const size_t end = left < FEW_AHEAD * LMPI_LANES ? left : FEW_AHEAD * LMPI_LANES;
     few_lanes *lanes = work->ahead;
-    const accumulate_tile all = { 0, bands, 0, bands };
-    few_begin_all(lights, i, i + end, points, element, lanes);
+    const few_members members = few_are_planes(lights)
+                                    ? few_members_at(lights, i)
+                                    : few_gather(lights, i, i + end, work->members);
     LMPI_ROLLED for (size_t k = 0; k < end; k += LMPI_LANES, lanes++)
-        accumulate_radial(bands, all, 1, &lanes->light, lanes->radial);
+        few_begin(bands, lights, &members, i, k, layout_live(end, k), points, element, lanes);
+    lanes = work->ahead;
+    LMPI_ROLLED for (size_t k = 0; bands > FEW_AT_BEGIN && k < end; k += LMPI_LANES)
+        few_radial(bands, lanes++);
     lanes = work->ahead;
     LMPI_ROLLED for (size_t k = 0; k < end; k += LMPI_LANES, lanes++) {
         work->rgb = (const float *)(const void *)lanes->rgb;

@@ -40,8 +40,13 @@ static LMPI_NOINLINE void eval_any(int bands, const lmpi_kernel_vec3 *directions
 
 LMPI_INLINE void eval_bands(int bands, int constant, const lmpi_kernel_vec3 *directions,
                             size_t count, const lmpi_kernel_out *out) {
-    for (size_t e = 0; constant && e < count; e += LMPI_LANES) {
-        vf axis[3];
+    size_t e = 0;
+    vf axis[3];
+    for (; constant && out->planar && e + LMPI_LANES <= count; e += LMPI_LANES) {
+        eval_axis(directions, e, axis);
+        basis_straight(bands, axis, NULL, out->at + e, out->stride);
+    }
+    for (; constant && e < count; e += LMPI_LANES) {
         eval_axis(directions, e, axis);
         basis_put_straight(bands, axis, NULL, out, e, count);
     }
