@@ -200,7 +200,7 @@ bool view_shot_confines(const view_settings *settings, const char *path);
       .kind = CLI_INT,                                                                             \
       .target = &(shot).pixels_max,                                                                \
       .argument = "N",                                                                             \
-      .help = "refuse a screenshot of more pixels, each of which takes 97 to 444 bytes of memory", \
+      .help = "refuse a screenshot of more pixels, each of which takes 97 to 480 bytes of memory", \
       .minimum = 1,                                                                                \
       .maximum = IMAGE_PIXELS_MAX },                                                               \
     {                                                                                              \

@@ -105,15 +105,14 @@ static void open_roof(stage *s, const lmp_light *light) {
 }
 
 /* Returns the mean variance of the pixels from one seed to another. */
-static double noise_of(stage *s, bool raw) {
+static double noise_of(stage *s, const environment *around, bool raw) {
     enum { SEEDS = 4, VALUES = 12 * PIXELS };
     static double sums[VALUES], squares[VALUES];
     double variance = 0;
     memset(sums, 0, sizeof sums);
     memset(squares, 0, sizeof squares);
     for (uint32_t seed = 0; seed < SEEDS; seed++) {
-        image drawn =
-            draw_shadows(s, NULL, &(shadow_settings) { .rays = 2, .seed = seed, .raw = raw });
+        image drawn = draw_shadows(s, around, &(shadow_settings) { .seed = seed, .raw = raw });
         for (int i = 0; i < VALUES; i++) {
             const double value = (double)drawn.rgb[i];
             sums[i] += value;
@@ -132,9 +131,26 @@ static void wide_penumbras_are_mixed_widely(void **state) {
     stage s;
     open_roof(&s,
               &(lmp_light) { .position = { 0, 2, 0 }, .radius = 0.3f, .radiance = { 9, 9, 9 } });
-    const double raw = noise_of(&s, true), filtered = noise_of(&s, false);
+    const double raw = noise_of(&s, NULL, true), filtered = noise_of(&s, NULL, false);
     print_message("variance %.2e unfiltered, %.2e filtered\n", raw, filtered);
     assert_true(filtered * 100 <= raw);
+    close_stage(&s);
+}
+
+/* All that lights the shadow of a sun is the sky, whose own shadows are soft. */
+static void the_sky_is_mixed_widely_in_the_shadow_of_a_sun(void **state) {
+    (void)state;
+    static float gray[3 * 8 * 4];
+    for (size_t i = 0; i < sizeof gray / sizeof *gray; i++)
+        gray[i] = 0.2f;
+    const environment sky = { .light = { 8, 4, gray } };
+    stage s;
+    open_roof(&s, &(lmp_light) { .kind = LMP_LIGHT_DIRECTIONAL,
+                                 .direction = { 0.28f, 0.96f, 0 },
+                                 .irradiance = { 3, 3, 3 } });
+    const double raw = noise_of(&s, &sky, true), filtered = noise_of(&s, &sky, false);
+    print_message("variance %.2e unfiltered, %.2e filtered\n", raw, filtered);
+    assert_true(filtered * 40 <= raw);
     close_stage(&s);
 }
 
@@ -288,6 +304,7 @@ int main(void) {
         cmocka_unit_test(many_filtered_samples_come_to_the_truth),
         cmocka_unit_test(neighbors_and_samples_share_their_rays),
         cmocka_unit_test(wide_penumbras_are_mixed_widely),
+        cmocka_unit_test(the_sky_is_mixed_widely_in_the_shadow_of_a_sun),
         cmocka_unit_test(edges_of_a_small_far_light_stay_within_a_pixel),
         cmocka_unit_test(the_foot_of_a_column_leaks_no_light),
         cmocka_unit_test(statistics_are_of_what_was_done),

@@ -9,12 +9,16 @@
 /* One pass of the filter. */
 typedef struct filter_pass {
     shadow_planes *planes;
-    int first, count; /* planes of values to filter: those of LOOK or of MIX */
+    int set;          /* of values */
+    int first, count; /* planes of values to filter: LOOK's, MIX's, or MIX's and SENT */
     int step;
     float narrowing; /* how strongly the slope of shadows narrows the filter; 0: not at all */
 } filter_pass;
 
-enum { LOOK = SHADOW_SLOPE, LOOK_COUNT = 3, MIX = SHADOW_UNHIDDEN, MIX_COUNT = SHADOW_SLOPE };
+enum { LOOK = SHADOW_WEIGHT, LOOK_COUNT = 3, MIX = SHADOW_UNHIDDEN, MIX_COUNT = SHADOW_WEIGHT };
+
+/* The weight, which looks alone need, is then 1 where a pixel has sent rays, and mixed as well. */
+enum { SENT = SHADOW_WEIGHT, SENT_COUNT = MIX_COUNT + 1 };
 
 /* Neighbors farther off a pixel's plane, relative to their distance and to a pixel's width, belong
  * to another surface. */
@@ -47,8 +51,8 @@ static inline weight_planes weight_planes_of(const filter_pass *pass) {
                              p->normal[1],
                              p->normal[2],
                              p->footprint,
-                             p->values[SHADOW_SLOPE],
-                             p->values[SHADOW_HIDDEN],
+                             p->values[pass->set][SHADOW_SLOPE],
+                             p->values[pass->set][SHADOW_HIDDEN],
                              pass->narrowing,
                              sqrtf(pass->narrowing) / jump };
 }
@@ -88,10 +92,10 @@ static inline float sum_values(const float *v, size_t i, size_t across, size_t d
 static inline void mix_inside(const filter_pass *pass, int first, int count, size_t i, size_t end) {
     const weight_planes s = weight_planes_of(pass);
     const size_t across = (size_t)pass->step, down = across * (size_t)pass->planes->width;
-    const float *from[MIX_COUNT];
-    float *to[MIX_COUNT];
+    const float *from[SENT_COUNT];
+    float *to[SENT_COUNT];
     for (int k = 0; k < count; k++) {
-        from[k] = pass->planes->values[first + k];
+        from[k] = pass->planes->values[pass->set][first + k];
         to[k] = pass->planes->scratch[first + k];
     }
 #pragma omp simd
@@ -114,6 +118,8 @@ static inline void mix_inside(const filter_pass *pass, int first, int count, siz
             to[4][x] = sum_values(from[4], x, across, down, w) / total;
             to[5][x] = sum_values(from[5], x, across, down, w) / total;
         }
+        if (count > MIX_COUNT)
+            to[6][x] = sum_values(from[6], x, across, down, w) / total;
     }
 }
 
@@ -125,12 +131,25 @@ static TRACE_WIDE void mix_values_inside(const filter_pass *pass, size_t i, size
     mix_inside(pass, MIX, MIX_COUNT, i, end);
 }
 
+static TRACE_WIDE void mix_sent_inside(const filter_pass *pass, size_t i, size_t end) {
+    mix_inside(pass, MIX, SENT_COUNT, i, end);
+}
+
+static void mix_some_inside(const filter_pass *pass, size_t i, size_t end) {
+    if (pass->first == LOOK)
+        look_inside(pass, i, end);
+    else if (pass->count == MIX_COUNT)
+        mix_values_inside(pass, i, end);
+    else
+        mix_sent_inside(pass, i, end);
+}
+
 /* Filters a pixel at the image's edge. */
 static void mix_pixel(const filter_pass *pass, int x, int y) {
     static const float kernel[2] = { 0.5f, 0.25f };
     const shadow_planes *p = pass->planes;
     const size_t i = (size_t)y * (size_t)p->width + (size_t)x;
-    float total = 0, sums[MIX_COUNT] = { 0 };
+    float total = 0, sums[SENT_COUNT] = { 0 };
     for (int v = -1; v <= 1; v++)
         for (int u = -1; u <= 1; u++) {
             const int column = x + u * pass->step, row = y + v * pass->step;
@@ -141,7 +160,7 @@ static void mix_pixel(const filter_pass *pass, int x, int y) {
                 weigh(weight_planes_of(pass), i, tap, kernel[abs(v)] * kernel[abs(u)]);
             total += weight;
             for (int k = 0; k < pass->count; k++)
-                sums[k] += weight * p->values[pass->first + k][tap];
+                sums[k] += weight * p->values[pass->set][pass->first + k][tap];
         }
     for (int k = 0; k < pass->count; k++)
         p->scratch[pass->first + k][i] = sums[k] / (total + tiny);
@@ -156,8 +175,7 @@ static void mix_row(const filter_pass *pass, int y, int begin, int end) {
     for (int x = begin; x < left && x < end; x++)
         mix_pixel(pass, x, y);
     if (left < right)
-        (pass->first == LOOK ? look_inside : mix_values_inside)(pass, row + (size_t)left,
-                                                                row + (size_t)right);
+        mix_some_inside(pass, row + (size_t)left, row + (size_t)right);
     for (int x = left > right ? left : right; x < end; x++)
         mix_pixel(pass, x, y);
 }
@@ -171,16 +189,17 @@ static void run_pass(const filter_pass *pass) {
                 mix_row(pass, row, x, x + BLOCK < p->width ? x + BLOCK : p->width);
     for (int k = pass->first; k < pass->first + pass->count; k++) {
         float *mixed = p->scratch[k];
-        p->scratch[k] = p->values[k];
-        p->values[k] = mixed;
+        p->scratch[k] = p->values[pass->set][k];
+        p->values[pass->set][k] = mixed;
     }
 }
 
 /* Divides what is blocked, and its slope, by what would arrive unblocked. */
-static void divide_looks(shadow_planes *p) {
+static void divide_looks(const shadow_planes *p, int set) {
     const size_t count = (size_t)p->width * (size_t)p->height;
-    const float *restrict weight = p->values[SHADOW_WEIGHT];
-    float *restrict slope = p->values[SHADOW_SLOPE], *restrict hidden = p->values[SHADOW_HIDDEN];
+    const float *restrict weight = p->values[set][SHADOW_WEIGHT];
+    float *restrict slope = p->values[set][SHADOW_SLOPE], *restrict hidden =
+                                                              p->values[set][SHADOW_HIDDEN];
 #pragma omp parallel for simd
     for (size_t i = 0; i < count; i++) {
         const float scale = 1 / (weight[i] + tiny);
@@ -191,11 +210,50 @@ static void divide_looks(shadow_planes *p) {
 
 /* Slopes and edges are estimated over a few pixels: enough to tell them from noise, few enough to
  * locate them; twice as far where some pixels have no rays, or single rays would remain as dots. */
-void shadow_filter(shadow_planes *planes, int spacing, float narrowing) {
-    enum { LOOKS = 2, PASSES = 4 };
+static void look_at(shadow_planes *planes, int set, int spacing) {
+    enum { LOOKS = 2 };
     for (int i = 0; i < LOOKS; i++)
-        run_pass(&(filter_pass) { planes, LOOK, LOOK_COUNT, spacing > 1 ? 1 << i : 1, 0 });
-    divide_looks(planes);
+        run_pass(&(filter_pass) { planes, set, LOOK, LOOK_COUNT, spacing > 1 ? 1 << i : 1, 0 });
+    divide_looks(planes, set);
+}
+
+static void mix(shadow_planes *planes, int set, int count, float narrowing) {
+    enum { PASSES = 4 };
     for (int i = 0; i < PASSES; i++)
-        run_pass(&(filter_pass) { planes, MIX, MIX_COUNT, 1 << i, narrowing });
+        run_pass(&(filter_pass) { planes, set, MIX, count, 1 << i, narrowing });
+}
+
+/* Marks the pixels that have sent rays in all sets. */
+static void mark_sent(const shadow_planes *p) {
+    const size_t count = (size_t)p->width * (size_t)p->height;
+#pragma omp parallel for
+    for (size_t i = 0; i < count; i++) {
+        float all = 0;
+        for (int c = 0; c < 3; c++)
+            all += shadow_planes_sum(p, SHADOW_ALL + c, i);
+        for (int set = 0; set < p->sets; set++)
+            p->values[set][SENT][i] = all > 0 ? 1 : 0;
+    }
+}
+
+/* Divides the values of a set by the fraction of their taps that have sent rays, which differs from
+ * that of the other set. */
+static void divide_by_sent(const shadow_planes *p, int set) {
+    const size_t count = (size_t)p->width * (size_t)p->height;
+#pragma omp parallel for
+    for (size_t i = 0; i < count; i++)
+        for (int k = MIX; k < MIX + MIX_COUNT; k++)
+            p->values[set][k][i] /= p->values[set][SENT][i] + tiny;
+}
+
+void shadow_filter(shadow_planes *planes, int spacing, float narrowing) {
+    const bool some = planes->sets > 1 && spacing > 1;
+    for (int set = 0; set < planes->sets; set++)
+        look_at(planes, set, spacing);
+    if (some)
+        mark_sent(planes);
+    for (int set = 0; set < planes->sets; set++)
+        mix(planes, set, some ? SENT_COUNT : MIX_COUNT, narrowing);
+    for (int set = 0; some && set < planes->sets; set++)
+        divide_by_sent(planes, set);
 }

@@ -9,6 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool sees_environment(const shadow_job *job) {
+    return job->source_count > 0 && job->sources[job->source_count - 1].kind == SHADOW_AROUND;
+}
+
+int shadow_job_sets(const shadow_job *job) {
+    return job->source_count > 1 && sees_environment(job) ? 2 : 1;
+}
+
 /* Draws the next numbers in 0 … 1 for every pixel. */
 static TRACE_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shadow_lanes *u) {
     for (int i = 0; i < SHADOW_LANES; i++) {
@@ -97,10 +105,12 @@ static float slope_of(float size, float length, float distance, float footprint)
     return 1 / (2 * size * distance * (length <= FLT_MAX ? beyond : 1) + 0.6f * footprint);
 }
 
-/* Adds the results of the rays to the pixels' sums. */
-static TRACE_WIDE void add_shot(const shadow_shot *shot, shadow_group *group) {
-    shadow_lanes *sums = group->sums;
+/* Adds the results of the rays to the pixels' sums: of those to source `around`, the environment,
+ * to the last of the sets. */
+static TRACE_WIDE void add_shot(const shadow_shot *shot, int around, int sets,
+                                shadow_group *group) {
     for (int i = 0; i < SHADOW_LANES; i++) {
+        shadow_lanes *const sums = group->sums[shot->source[i] == around ? sets - 1 : 0];
         const float length = shot->rays.length[i], mean = shot->mean[i];
         const bool hidden = shot->distance[i] < length;
         const float slope =
@@ -120,7 +130,8 @@ static TRACE_WIDE void add_shot(const shadow_shot *shot, shadow_group *group) {
 static void send_batch(const shadow_job *job, shadow_work *work) {
     work->sent += shadow_batch_send(&work->batch, job->view.bvh);
     for (int i = 0; i < work->batch.count; i++)
-        add_shot(&work->batch.shots[i], &work->groups[work->group_of[i]]);
+        add_shot(&work->batch.shots[i], work->batch.around, shadow_job_sets(job),
+                 &work->groups[work->group_of[i]]);
     work->batch.count = 0;
 }
 
@@ -177,8 +188,10 @@ static void store_tile(const shadow_job *job, const render_tile *tile,
                        const render_rectangle *pixels, shadow_planes *planes) {
     for (int j = 0; j < pixels->height; j++) {
         const size_t first = (size_t)(pixels->y + j) * (size_t)planes->width + (size_t)pixels->x;
-        for (int k = 0; k < SHADOW_VALUES; k++)
-            memset(planes->values[k] + first, 0, (size_t)pixels->width * sizeof *planes->values[k]);
+        for (int k = 0; k < planes->sets * SHADOW_VALUES; k++) {
+            float *values = planes->values[k / SHADOW_VALUES][k % SHADOW_VALUES];
+            memset(values + first, 0, (size_t)pixels->width * sizeof *values);
+        }
         for (int i = 0; i < pixels->width; i++) {
             const size_t pixel = first + (size_t)i;
             const int at = j * pixels->width + i;
@@ -197,8 +210,9 @@ static void store(const shadow_group *group, shadow_planes *planes) {
         const size_t pixel = (size_t)group->y[i] * (size_t)planes->width + group->x[i];
         for (int c = 0; c < 3; c++)
             planes->normal[c][pixel] = group->smooth.of[c][i];
-        for (int k = 0; k < SHADOW_VALUES; k++)
-            planes->values[k][pixel] = group->sums[k][i];
+        for (int set = 0; set < planes->sets; set++)
+            for (int k = 0; k < SHADOW_VALUES; k++)
+                planes->values[set][k][pixel] = group->sums[set][k][i];
     }
 }
 
@@ -259,10 +273,9 @@ void shadow_rays_tile(const shadow_job *job, const render_surfaces *surfaces,
 
 shadow_work *shadow_work_create(const shadow_job *job) {
     const size_t count = job->source_count;
-    const bool around = count > 0 && job->sources[count - 1].kind == SHADOW_AROUND;
     shadow_work *work = calloc(1, sizeof *work);
     if (work)
-        work->batch.around = around ? (int)count - 1 : -1;
+        work->batch.around = sees_environment(job) ? (int)count - 1 : -1;
     if (work && (work->weights = malloc((count + 1) * sizeof *work->weights)) &&
         render_tile_create(RENDER_TILE_PIXELS, &work->tile))
         return work;

@@ -17,13 +17,16 @@ typedef struct shadow_job {
     uint32_t seed;
 } shadow_job;
 
+/* Returns how many sets of values the planes of a job have. */
+int shadow_job_sets(const shadow_job *job);
+
 /* A group of pixels whose rays are in a batch. */
 typedef struct shadow_group {
     uint32_t x[SHADOW_LANES], y[SHADOW_LANES];
     int count;
     shadow_lanes footprint;
     shadow_vectors smooth;
-    shadow_lanes sums[SHADOW_VALUES]; /* as in planes.h */
+    shadow_lanes sums[SHADOW_SETS][SHADOW_VALUES]; /* as in planes.h */
 } shadow_group;
 
 /* The buffers of a thread. */

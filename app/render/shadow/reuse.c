@@ -20,8 +20,8 @@ static bool is_alike(const shadow_planes *p, size_t pixel, const render_tile *ti
 
 static void add(const shadow_planes *p, size_t pixel, shadow_sum *sum) {
     for (int c = 0; c < 3; c++) {
-        sum->unhidden[c] += p->values[SHADOW_UNHIDDEN + c][pixel];
-        sum->all[c] += p->values[SHADOW_ALL + c][pixel];
+        sum->unhidden[c] += shadow_planes_sum(p, SHADOW_UNHIDDEN + c, pixel);
+        sum->all[c] += shadow_planes_sum(p, SHADOW_ALL + c, pixel);
     }
 }
 

@@ -127,7 +127,8 @@ static bool begin(void *user, const render_frame *frame, int sample, base_error 
     shadow *s = user;
     s->job = job_of(s, frame, sample);
     s->statistics = (shadow_statistics) { .rays_a_pixel = s->job.rays };
-    return shadow_planes_resize(&s->planes, frame->width, frame->height) ||
+    return shadow_planes_resize(&s->planes, frame->width, frame->height,
+                                shadow_job_sets(&s->job)) ||
            fail_memory(NULL, error);
 }
 
@@ -177,9 +178,17 @@ static void mix(void *user) {
 
 /* Returns the fraction of light that arrives; 1 where there is no light. */
 static float ratio_of(const shadow_planes *planes, int channel, size_t pixel) {
-    const float all = planes->values[SHADOW_ALL + channel][pixel];
-    const float unhidden = planes->values[SHADOW_UNHIDDEN + channel][pixel];
+    const float all = shadow_planes_sum(planes, SHADOW_ALL + channel, pixel);
+    const float unhidden = shadow_planes_sum(planes, SHADOW_UNHIDDEN + channel, pixel);
     return all > 0 && unhidden < all ? unhidden / all : 1;
+}
+
+/* Whether a ray of a pixel or of its neighbors was worth sending. */
+static bool casts(const shadow_planes *planes, size_t pixel) {
+    float sum = 0;
+    for (int c = 0; c < 3; c++)
+        sum += shadow_planes_sum(planes, SHADOW_ALL + c, pixel);
+    return sum > 0;
 }
 
 /* Returns what a pixel emits; the ground emits nothing. */
@@ -191,12 +200,11 @@ static lmp_rgb emission_of(const render_surfaces *surfaces, size_t pixel) {
 static void change(const void *user, const render_surfaces *surfaces,
                    const render_rectangle *pixels, float *rgba) {
     const shadow *s = user;
-    float *const *const all = s->planes.values + SHADOW_ALL;
     for (int i = 0; i < pixels->width * pixels->height; i++) {
         const int x = pixels->x + i % pixels->width, y = pixels->y + i / pixels->width;
         const size_t pixel = (size_t)y * (size_t)s->planes.width + (size_t)x;
         const size_t at = render_surfaces_at(surfaces, x, y);
-        if (!(all[0][pixel] + all[1][pixel] + all[2][pixel] > 0))
+        if (!casts(&s->planes, pixel))
             continue;
         const lmp_rgb glow = emission_of(surfaces, at);
         const float emission[3] = { glow.r, glow.g, glow.b };
