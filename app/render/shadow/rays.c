@@ -27,6 +27,24 @@ static TRACE_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shad
     }
 }
 
+/* Whether all lights are far away and so few that half of the rays find their shadows, which have
+ * narrow penumbras if any. */
+static bool sees_few_suns(const shadow_job *job) {
+    const size_t suns = job->source_count - 1;
+    bool far = 4 * suns <= (size_t)job->rays;
+    for (size_t s = 0; far && s < suns; s++)
+        far = job->sources[s].kind == SHADOW_FAR;
+    return far && suns > 0 && sees_environment(job);
+}
+
+/* Raises the weight of the environment beside suns to that of all suns together, and thus to at
+ * least half of the rays: where the suns are hidden, it is all that lights the pixel. */
+static void favor_environment(const shadow_job *job, shadow_lanes *weights) {
+    const size_t last = job->source_count - 1;
+    for (int i = 0; i < SHADOW_LANES; i++)
+        weights[last][i] = fmaxf(weights[last][i], 2 * weights[last - 1][i]);
+}
+
 /* Chooses the sources by random numbers and cumulative weights. */
 static TRACE_WIDE void choose(const shadow_job *job, shadow_lanes *weights, const float *u,
                               int *chosen) {
@@ -141,6 +159,8 @@ static void add_rays(const shadow_job *job, const shadow_points *points, int num
     const shadow_group *group = &work->groups[number];
     shadow_sequence sequences[SHADOW_LANES];
     shadow_sources_weigh(job->sources, job->source_count, points, work->weights);
+    if (sees_few_suns(job))
+        favor_environment(job, work->weights);
     for (int i = 0; i < SHADOW_LANES; i++)
         sequences[i] = shadow_sequence_of(group->x[i], group->y[i], (uint32_t)job->rays, job->seed);
     for (int ray = 0; ray < job->rays; ray++) {
