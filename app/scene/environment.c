@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/environment.h"
 
+#include "app/scene/vector.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const float pi = 3.14159265f;
 
 /* --- files ------------------------------------------------------------------------------------ */
 
@@ -54,32 +54,66 @@ static bool is_dark(const scene *world) {
     return !world->lights_chosen && !environment_lights_suffice(world);
 }
 
+/* Returns the sum of what the scene's own suns give to a surface that faces each, the mean of the
+ * channels; 0 where other lights shine, or where the command line chose lights. */
+static float sunlight(const scene *world) {
+    float sum = 0;
+    for (size_t i = 0; i < world->light_count; i++) {
+        const lmp_light *light = &world->lights[i].emitter;
+        if (light->kind != LMP_LIGHT_DIRECTIONAL && light->kind != LMP_LIGHT_CAP)
+            return 0;
+        const lmp_rgb rgb = lmp_light_irradiance(light, 1, vec(0, 0, 0), light->direction);
+        sum += (rgb.r + rgb.g + rgb.b) / 3;
+    }
+    return world->lights_chosen ? 0 : sum;
+}
+
+/* Whether nothing but suns lights a scene that the sky would light, too: the walls of a room seen
+ * from inside would keep it out. */
+static bool lacks_sky(const scene *world) {
+    return sunlight(world) > 0 && environment_suits_shadows(true, world);
+}
+
 /* Makes the studio with its front toward the camera that frames the scene by default. */
-static bool open_studio(const environment_options *options, const scene *world, environment *e,
-                        base_error *error) {
+static bool open_studio(const environment_options *options, float strength, const scene *world,
+                        environment *e, base_error *error) {
     const scene_camera camera = scene_default_camera(world, 1);
     const float x = camera.eye[0] - camera.target[0], z = camera.eye[2] - camera.target[2];
     if (!environment_make_studio(e, error))
         return false;
-    e->azimuth += x * x + z * z > 0 ? (float)atan2((double)z, (double)x) : pi / 2;
+    e->azimuth += x * x + z * z > 0 ? (float)atan2((double)z, (double)x) : PI / 2;
     e->studio = true;
-    if (!options->name || is_dark(world)) /* no name: chosen because the scene is dark */
+    e->exposure = sunlight(world) > 0 ? 0.0f : 1.0f; /* a sky's strength is that of its sun */
+    if (e->exposure > 0 && (!options->name || is_dark(world))) /* no name: it is dark */
         e->faint = world->light_count;
-    return check_radiance(&e->light, options->strength, "studio", error) &&
-           check_radiance(&e->backdrop, options->strength, "studio", error);
+    return check_radiance(&e->light, strength, "studio", error) &&
+           check_radiance(&e->backdrop, strength, "studio", error);
 }
 
-const char *environment_choose(const environment_options *options, const scene *world) {
+/* The irradiance of level ground by the sky, relative to that of its sun: 0.1 where the sky is
+ * clear, more in haze. */
+#define SKY_PART 0.2f
+
+environment_options environment_choose(const environment_options *options, const scene *world) {
+    environment_options chosen = *options;
     if (options->name)
-        return options->name;
-    if (!is_dark(world))
-        return "none";
-    base_note(world->name,
-              "%s, lit by the built-in studio (--environment, --lights and --random-lights choose "
-              "others)",
-              world->light_count > 0 ? "what glows in it lights little of what is seen"
-                                     : "no lights in it");
-    return "studio";
+        return chosen;
+    chosen.name = "studio";
+    if (lacks_sky(world)) {
+        const float strength = chosen.strength * SKY_PART * sunlight(world) / STUDIO_IRRADIANCE;
+        chosen.strength = fminf(strength, (float)ENVIRONMENT_STRENGTH_MAX);
+        base_note(world->name, "only suns light it, so the built-in studio shines as their sky "
+                               "(--environment none leaves it out)");
+    } else if (is_dark(world)) {
+        base_note(world->name,
+                  "%s, lit by the built-in studio (--environment, --lights and --random-lights "
+                  "choose others)",
+                  world->light_count > 0 ? "what glows in it lights little of what is seen"
+                                         : "no lights in it");
+    } else {
+        chosen.name = "none";
+    }
+    return chosen;
 }
 
 const char *const environment_ground_names[] = { "auto", "on", "off", NULL };
@@ -90,16 +124,17 @@ bool environment_is_file(const char *name) {
 
 bool environment_open(const environment_options *options, const scene *world, environment *e,
                       base_error *error) {
-    const char *name = environment_choose(options, world);
+    const environment_options chosen = environment_choose(options, world);
+    const char *name = chosen.name;
     memset(e, 0, sizeof *e);
-    e->azimuth = -options->rotation * pi / 180;
+    e->azimuth = -options->rotation * PI / 180;
     e->ground = options->ground == ENVIRONMENT_GROUND_ON ||
                 (options->ground == ENVIRONMENT_GROUND_SUITS && strcmp(name, "studio") == 0 &&
                  !scene_is_inside(world));
     if (strcmp(name, "none") == 0)
         return true;
     if (!environment_is_file(name)) {
-        if (open_studio(options, world, e, error))
+        if (open_studio(options, chosen.strength, world, e, error))
             return true;
     } else if (open_file(name, options->strength, &e->light, error)) {
         e->backdrop = e->light;

@@ -15,10 +15,11 @@ typedef enum environment_ground {
 } environment_ground;
 
 typedef struct environment_options {
-    const char *name; /* a file, "studio" or "none"; NULL: the studio if the scene is dark */
-    float rotation;   /* degrees, counter-clockwise as seen from above */
-    float strength;   /* a factor on radiance */
-    int ground;       /* environment_ground */
+    const char
+        *name;      /* a file, "studio" or "none"; NULL: the studio if little but suns lights it */
+    float rotation; /* degrees, counter-clockwise as seen from above */
+    float strength; /* a factor on radiance */
+    int ground;     /* environment_ground */
 } environment_options;
 
 #define ENVIRONMENT_DEFAULTS                                                                       \
@@ -33,7 +34,7 @@ typedef struct environment_options {
       .target = &(variable).name,                                                                  \
       .argument = "FILE",                                                                          \
       .help = "ambient light: a .hdr, .exr or .png of the surroundings, studio, or none; "         \
-              "without it, studio where little else shines" },                                     \
+              "without it, studio where little but suns shines" },                                 \
         { .name = "environment-rotation",                                                          \
           .kind = CLI_FLOAT,                                                                       \
           .target = &(variable).rotation,                                                          \
@@ -67,6 +68,7 @@ typedef struct environment {
     bool studio;    /* whether it is the built-in studio */
     bool ground;    /* whether shadows fall on level ground under the scene */
     size_t faint;   /* number of the scene's lights that it outshines */
+    float exposure; /* that suits it beside no other lights; 0: determine one */
     float *sh;      /* coefficients as in lmp_environment, of `bands` bands */
     int bands;
     scene_light suns[ENVIRONMENT_SUNS_MAX]; /* that environment_extract_suns took from `light` */
@@ -79,9 +81,10 @@ bool environment_is_file(const char *name);
 /* Whether the scene has lights of its own that light more than a corner of it. */
 bool environment_lights_suffice(const scene *world);
 
-/* Returns the environment that the options name for a scene; without a name the studio, with a note
- * on stderr, or none. */
-const char *environment_choose(const environment_options *options, const scene *world);
+/* Returns the options with a name, and with the strength that suits it: without a name the studio,
+ * with a note on stderr, or none. Beside nothing but suns of the scene's own the studio is as
+ * bright as their sky. */
+environment_options environment_choose(const environment_options *options, const scene *world);
 
 /* Opens the environment that the options name for a scene. */
 bool environment_open(const environment_options *options, const scene *world, environment *e,
@@ -103,7 +106,7 @@ size_t environment_add_suns(const environment *e, scene_light *lights, size_t co
 /* Returns the exposure that suits a scene lit by the studio alone, or by it and faint emissive
  * meshes; else 0: determine one. */
 static inline float environment_exposure(const environment *e, size_t light_count) {
-    return e && e->studio && light_count <= e->faint ? 1 : 0;
+    return e && light_count <= e->faint ? e->exposure : 0;
 }
 
 /* Whether a scene has shadows by default. It has none where the studio lights a scene that is seen
@@ -128,6 +131,7 @@ lmp_rgb environment_seen(const environment *e, const float direction[3]);
 /* Makes the built-in studio and its backdrop: a hemisphere with soft boxes, whose front is the
  * center column. */
 bool environment_make_studio(environment *e, base_error *error);
+#define STUDIO_IRRADIANCE 4.06f /* of a surface that faces up in it */
 
 /* Resamples a cube map, an unfolded cross of 4 x 3 or 3 x 4 faces, to a latitude-longitude image;
  * *map is created. The middle of the cross is what a camera that looks along -z sees. */

@@ -103,15 +103,15 @@ bool view_choose_environment(viewer *v, base_error *error) {
     view_environment *around = &now->environment;
     if (o->keep_lights && !v->another)
         return true;
-    const char *name = environment_choose(&o->environment, v->world);
-    if (strlen(name) >= sizeof around->name)
-        return base_fail(error, name, "is too long a name");
-    strcpy(around->name, name);
-    around->rotation = o->environment.rotation;
-    around->strength = o->environment.strength;
-    around->ground = o->environment.ground;
+    const environment_options chosen = environment_choose(&o->environment, v->world);
+    if (strlen(chosen.name) >= sizeof around->name)
+        return base_fail(error, chosen.name, "is too long a name");
+    strcpy(around->name, chosen.name);
+    around->rotation = chosen.rotation;
+    around->strength = chosen.strength;
+    around->ground = chosen.ground;
     if (!o->shadows_chosen)
-        now->shadows = suits_shadows(v->world, name);
+        now->shadows = suits_shadows(v->world, chosen.name);
     return true;
 }
 

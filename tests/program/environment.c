@@ -2,6 +2,7 @@
 /* Environments: directions of an image's colors, its coefficients, and what is refused. */
 #include "app/scene/environment.h"
 #include "app/scene/instance.h"
+#include "app/scene/vector.h"
 #include "tests/program/folder.h"
 
 #include <lampion/shade.h>
@@ -204,11 +205,11 @@ static void the_studio_shines_where_what_glows_lights_little(void **state) {
     (void)state;
     const environment_options none = ENVIRONMENT_DEFAULTS;
     const scene over = glowing_scene(1, 1);
-    assert_string_equal(environment_choose(&none, &over), "none");
+    assert_string_equal(environment_choose(&none, &over).name, "none");
     const scene under = glowing_scene(-1, 1);
-    assert_string_equal(environment_choose(&none, &under), "studio");
+    assert_string_equal(environment_choose(&none, &under).name, "studio");
     const scene lamp = glowing_scene(-1, 0); /* a light that is not a mesh */
-    assert_string_equal(environment_choose(&none, &lamp), "none");
+    assert_string_equal(environment_choose(&none, &lamp).name, "none");
     /* The scene has the exposure of the studio alone, however that is chosen, but not beside a
      * lamp. */
     const char *const names[] = { NULL, "studio" };
@@ -246,11 +247,11 @@ static void the_studio_shines_where_nothing_else_does(void **state) {
     scene world = lit_scene();
     environment e;
     base_error error;
-    assert_string_equal(environment_choose(&none, &world), "none");
+    assert_string_equal(environment_choose(&none, &world).name, "none");
     world.light_count = 0;
-    assert_string_equal(environment_choose(&none, &world), "studio");
+    assert_string_equal(environment_choose(&none, &world).name, "studio");
     world.lights_chosen = true;
-    assert_string_equal(environment_choose(&none, &world), "none");
+    assert_string_equal(environment_choose(&none, &world).name, "none");
     assert_true(environment_open(&(environment_options) { .name = "studio", .strength = 1 }, &world,
                                  &e, &error));
     assert_true(environment_shines(&e) && environment_exposure(&e, 0) > 0);
@@ -260,7 +261,74 @@ static void the_studio_shines_where_nothing_else_does(void **state) {
     const lmp_rgb paper = lmp_probe_irradiance(3, e.sh, (lmp_vec3) { 0, 1, 0 });
     printf("white paper that faces up: %.3f\n", (double)paper.g / M_PI);
     assert_true(paper.g > 1.5f && paper.g < 5);
+    CHECK_WITHIN(fabs((double)(paper.g / STUDIO_IRRADIANCE) - 1), 0.01);
     environment_free(&e);
+}
+
+/* Makes a floor under suns that give as much light as one of irradiance 5, 10, 15. */
+static scene sunny_scene(bool cap, int count) {
+    static scene_light suns[3];
+    scene world = glowing_scene(1, 0);
+    for (int i = 0; i < count; i++) {
+        const lmp_rgb part = { 5 / (float)count, 10 / (float)count, 15 / (float)count };
+        const float width = cap ? PI * 0.25f : 1; /* pi sin² of 30 degrees */
+        suns[i].emitter = (lmp_light) { .kind = cap ? LMP_LIGHT_CAP : LMP_LIGHT_DIRECTIONAL,
+                                        .direction = { 0.6f, 0.8f, 0 },
+                                        .angle = cap ? PI / 6 : 0 };
+        *(cap ? &suns[i].emitter.radiance : &suns[i].emitter.irradiance) =
+            (lmp_rgb) { part.r / width, part.g / width, part.b / width };
+    }
+    suns[count].emitter = world.lights[0].emitter; /* a lamp, which does not count yet */
+    world.lights = suns;
+    world.light_count = (size_t)count;
+    return world;
+}
+
+static void the_studio_is_the_sky_of_lone_suns(void **state) {
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        const scene world = sunny_scene(k & 1, 1 + (k > 1));
+        const environment_options options = { .strength = k > 3 ? 3 : 1 };
+        environment e;
+        base_error error;
+        assert_string_equal(environment_choose(&options, &world).name, "studio");
+        assert_true(environment_open(&options, &world, &e, &error));
+        assert_true(environment_project(&e, 3, &error));
+        const lmp_rgb ground = lmp_probe_irradiance(3, e.sh, (lmp_vec3) { 0, 1, 0 });
+        CHECK_WITHIN(fabs((double)(ground.g / options.strength) - 0.2 * 10), 0.05);
+        /* The exposure is that of what is seen, also when the suns have been removed. */
+        assert_true(environment_exposure(&e, world.light_count) <= 0 &&
+                    environment_exposure(&e, 0) <= 0);
+        environment_free(&e);
+    }
+    scene blinding = sunny_scene(false, 1);
+    blinding.lights[0].emitter.irradiance.r = 1e18f;
+    const environment_options none = ENVIRONMENT_DEFAULTS;
+    CHECK_WITHIN((double)environment_choose(&none, &blinding).strength, ENVIRONMENT_STRENGTH_MAX);
+}
+
+static void suns_that_are_not_alone_have_no_sky(void **state) {
+    (void)state;
+    const environment_options options = ENVIRONMENT_DEFAULTS;
+    scene world = sunny_scene(false, 2);
+    world.light_count = 3; /* a lamp */
+    assert_string_equal(environment_choose(&options, &world).name, "none");
+    world.light_count = 2;
+    world.lights_chosen = true;
+    assert_string_equal(environment_choose(&options, &world).name, "none");
+    world.lights_chosen = false;
+    for (int i = 0; i < 2; i++)
+        world.lights[i].emitter.irradiance = (lmp_rgb) { 0, 0, 0 };
+    assert_string_equal(environment_choose(&options, &world).name, "none");
+    /* What is chosen stays as it is. */
+    const char *const names[] = { "none", "studio", "sky.exr" };
+    world = sunny_scene(false, 1);
+    for (size_t i = 0; i < 3; i++) {
+        const environment_options chosen =
+            environment_choose(&(environment_options) { .name = names[i], .strength = 1 }, &world);
+        assert_string_equal(chosen.name, names[i]);
+        assert_true(chosen.strength == 1);
+    }
 }
 
 /* --- suns ------------------------------------------------------------------------------------- */
@@ -389,6 +457,8 @@ int main(void) {
         cmocka_unit_test(the_strength_scales_what_shines_and_what_is_seen),
         cmocka_unit_test(the_studio_shines_where_nothing_else_does),
         cmocka_unit_test(the_studio_shines_where_what_glows_lights_little),
+        cmocka_unit_test(the_studio_is_the_sky_of_lone_suns),
+        cmocka_unit_test(suns_that_are_not_alone_have_no_sky),
         cmocka_unit_test(a_sun_in_an_image_becomes_a_cap),
         cmocka_unit_test(the_side_away_from_a_sun_is_as_dark_as_it_is),
         cmocka_unit_test(what_is_no_sun_stays_in_the_image),

@@ -394,6 +394,15 @@ static void the_sky_reaches_what_is_seen_from_outside(void **state) {
                 fail_msg("%s %d: %g of the sky", shapes[i].name, kind, (double)frame.sky);
             assert_int_equal(environment_suits_shadows(true, &world), outside && !floorless);
             assert_true(environment_suits_shadows(false, &world));
+            /* Nor is it added to a sun where it reaches nothing. */
+            scene_light sun = { .emitter = { .kind = LMP_LIGHT_DIRECTIONAL,
+                                             .direction = { 0, 1, 0 },
+                                             .irradiance = { 1, 1, 1 } } };
+            world.lights = &sun;
+            world.light_count = 1;
+            assert_string_equal(
+                environment_choose(&(environment_options)ENVIRONMENT_DEFAULTS, &world).name,
+                outside && !floorless ? "studio" : "none");
         }
     free(s);
 }

@@ -210,6 +210,17 @@ alike yes "$room" "$room --no-shadows"
 alike no "$room" "$room --shadows"
 alike yes "$WORK/spike.obj" "$WORK/spike.obj --ground on"
 alike no "$WORK/spike.obj" "$WORK/spike.obj --ground off"
+
+# Suns that are a file's only lights have a sky, by every reader; lights that the command line chooses have none.
+cat >"$WORK/sun.gltf" <<'END'
+{"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"directional","intensity":406}]}},"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AABAwAAAQMAAAAAAAABAQAAAQMAAAAAAAAAAAAAAQEAAAAAA"}]}
+END
+alike yes "$WORK/sun.gltf" "$WORK/sun.gltf --environment studio --environment-strength 20"
+alike no "$WORK/sun.gltf" "$WORK/sun.gltf --environment none"
+"$PROGRAM" info --lights "$WORK/sun.gltf" | sed 's/^/{"lights":[/;s/$/]}/' >"$WORK/sun.json"
+alike yes "$WORK/sun.gltf --lights $WORK/sun.json" "$WORK/sun.gltf --environment none"
+"$PROGRAM" reference "$WORK/sun.gltf" --size 8x8 --spp 1 -o "$WORK/sky.exr" 2>"$WORK/err"
+grep -q 'only suns light it' "$WORK/err" || fail "reference does not say that it adds a sky: $(cat "$WORK/err")"
 alike yes "$WORK/spike.obj --no-shadows --ground on" "$WORK/spike.obj --no-shadows --ground off"
 "$PROGRAM" render builtin:balls --size 64x36 --bands 20 -o "$WORK/shadows.exr"
 "$PROGRAM" reference builtin:balls --size 64x36 --spp 64 -o "$WORK/truth.exr"
