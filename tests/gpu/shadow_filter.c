@@ -137,20 +137,43 @@ static void wide_penumbras_are_mixed_widely(void **state) {
     close_stage(&s);
 }
 
-/* All that lights the shadow of a sun is the sky, whose own shadows are soft. */
-static void the_sky_is_mixed_widely_in_the_shadow_of_a_sun(void **state) {
-    (void)state;
+/* Opens the roof under a sun, and makes an even sky. */
+static environment open_day(stage *s) {
     static float gray[3 * 8 * 4];
     for (size_t i = 0; i < sizeof gray / sizeof *gray; i++)
         gray[i] = 0.2f;
-    const environment sky = { .light = { 8, 4, gray } };
+    open_roof(s, &(lmp_light) { .kind = LMP_LIGHT_DIRECTIONAL,
+                                .direction = { 0.28f, 0.96f, 0 },
+                                .irradiance = { 3, 3, 3 } });
+    return (environment) { .light = { 8, 4, gray } };
+}
+
+/* All that lights the shadow of a sun is the sky, whose own shadows are soft. */
+static void the_sky_is_mixed_widely_in_the_shadow_of_a_sun(void **state) {
+    (void)state;
     stage s;
-    open_roof(&s, &(lmp_light) { .kind = LMP_LIGHT_DIRECTIONAL,
-                                 .direction = { 0.28f, 0.96f, 0 },
-                                 .irradiance = { 3, 3, 3 } });
+    const environment sky = open_day(&s);
     const double raw = noise_of(&s, &sky, true), filtered = noise_of(&s, &sky, false);
     print_message("variance %.2e unfiltered, %.2e filtered\n", raw, filtered);
     assert_true(filtered * 300 <= raw);
+    close_stage(&s);
+}
+
+/* The filters of sun and sky have other taps, and thus other parts of them without rays. */
+static void pixels_without_rays_have_the_same_sky(void **state) {
+    (void)state;
+    stage s;
+    const environment sky = open_day(&s);
+    image truth =
+        draw_shadows(&s, &sky, &(shadow_settings) { .rays = 256, .seed = 9, .raw = true });
+    image all = draw_shadows(&s, &sky, &(shadow_settings) { .rays = 0 });
+    image sparse = draw_shadows(&s, &sky, &(shadow_settings) { .sparse = true });
+    const double error = relative_error(&sparse, &truth), least = relative_error(&all, &truth);
+    print_message("relative error %.2e, %.2e of all rays\n", error, least);
+    assert_true(error < 20 * least); /* most of it at the edges of the sun's shadow */
+    image_free(&truth);
+    image_free(&all);
+    image_free(&sparse);
     close_stage(&s);
 }
 
@@ -305,6 +328,7 @@ int main(void) {
         cmocka_unit_test(neighbors_and_samples_share_their_rays),
         cmocka_unit_test(wide_penumbras_are_mixed_widely),
         cmocka_unit_test(the_sky_is_mixed_widely_in_the_shadow_of_a_sun),
+        cmocka_unit_test(pixels_without_rays_have_the_same_sky),
         cmocka_unit_test(edges_of_a_small_far_light_stay_within_a_pixel),
         cmocka_unit_test(the_foot_of_a_column_leaks_no_light),
         cmocka_unit_test(statistics_are_of_what_was_done),
