@@ -54,21 +54,32 @@ static bool is_dark(const scene *world) {
     return !world->lights_chosen && !environment_lights_suffice(world);
 }
 
-/* Returns the sum of what the scene's own suns give to a surface that faces each, the mean of the
- * channels; 0 where other lights shine, or where the command line chose lights. */
-static float sunlight(const scene *world) {
-    float sum = 0;
-    for (size_t i = 0; i < world->light_count; i++) {
-        const lmp_light *light = &world->lights[i].emitter;
-        if (light->kind != LMP_LIGHT_DIRECTIONAL && light->kind != LMP_LIGHT_CAP)
-            return 0;
-        const lmp_rgb rgb = lmp_light_irradiance(light, 1, vec(0, 0, 0), light->direction);
-        sum += (rgb.r + rgb.g + rgb.b) / 3;
-    }
-    return world->lights_chosen ? 0 : sum;
+/* The irradiance of level ground by the sky, relative to that of its sun: 0.1 where the sky is
+ * clear, more in haze. */
+#define SKY_PART 0.2f
+
+static float mean_of(lmp_rgb rgb) {
+    return (rgb.r + rgb.g + rgb.b) / 3;
 }
 
-/* Whether nothing but suns lights a scene that the sky would light, too: the walls of a room seen
+/* Returns the sum of what the scene's own suns give to a surface that faces each; 0 where other
+ * lights shine, or where the command line chose lights. A mesh that glows with radiance L gives a
+ * surface at most pi L: it counts if that is more than the sky gives. */
+static float sunlight(const scene *world) {
+    float suns = 0, glow = 0;
+    for (size_t i = 0; i < world->light_count; i++) {
+        const lmp_light *light = &world->lights[i].emitter;
+        if (light->kind == LMP_LIGHT_DIRECTIONAL || light->kind == LMP_LIGHT_CAP)
+            suns += mean_of(lmp_light_irradiance(light, 1, vec(0, 0, 0), light->direction));
+        else if (world->lights[i].hidden && scene_light_extent(light) > 0)
+            glow = fmaxf(glow, PI * mean_of(light->radiance));
+        else
+            return 0;
+    }
+    return world->lights_chosen || glow > SKY_PART * suns ? 0 : suns;
+}
+
+/* Whether little but suns lights a scene that the sky would light, too: the walls of a room seen
  * from inside would keep it out. */
 static bool lacks_sky(const scene *world) {
     return sunlight(world) > 0 && environment_suits_shadows(true, world);
@@ -90,10 +101,6 @@ static bool open_studio(const environment_options *options, float strength, cons
            check_radiance(&e->backdrop, strength, "studio", error);
 }
 
-/* The irradiance of level ground by the sky, relative to that of its sun: 0.1 where the sky is
- * clear, more in haze. */
-#define SKY_PART 0.2f
-
 environment_options environment_choose(const environment_options *options, const scene *world) {
     environment_options chosen = *options;
     if (options->name)
@@ -102,8 +109,9 @@ environment_options environment_choose(const environment_options *options, const
     if (lacks_sky(world)) {
         const float strength = chosen.strength * SKY_PART * sunlight(world) / STUDIO_IRRADIANCE;
         chosen.strength = fminf(strength, (float)ENVIRONMENT_STRENGTH_MAX);
-        base_note(world->name, "only suns light it, so the built-in studio shines as their sky "
-                               "(--environment none leaves it out)");
+        base_note(world->name,
+                  "little but suns lights it, so the built-in studio shines as their sky "
+                  "(--environment none leaves it out)");
     } else if (is_dark(world)) {
         base_note(world->name,
                   "%s, lit by the built-in studio (--environment, --lights and --random-lights "

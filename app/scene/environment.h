@@ -82,7 +82,7 @@ bool environment_is_file(const char *name);
 bool environment_lights_suffice(const scene *world);
 
 /* Returns the options with a name, and with the strength that suits it: without a name the studio,
- * with a note on stderr, or none. Beside nothing but suns of the scene's own the studio is as
+ * with a note on stderr, or none. Beside little but suns of the scene's own the studio is as
  * bright as their sky. */
 environment_options environment_choose(const environment_options *options, const scene *world);
 

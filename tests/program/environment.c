@@ -313,6 +313,10 @@ static void suns_that_are_not_alone_have_no_sky(void **state) {
     scene world = sunny_scene(false, 2);
     world.light_count = 3; /* a lamp */
     assert_string_equal(environment_choose(&options, &world).name, "none");
+    world.lights[2].hidden = 1; /* a mesh that glows with radiance 1 gives at most 3.1, the sky 2 */
+    assert_string_equal(environment_choose(&options, &world).name, "none");
+    world.lights[2].emitter.radiance = (lmp_rgb) { 0.6f, 0.6f, 0.6f };
+    assert_string_equal(environment_choose(&options, &world).name, "studio");
     world.light_count = 2;
     world.lights_chosen = true;
     assert_string_equal(environment_choose(&options, &world).name, "none");
