@@ -52,7 +52,7 @@ static void send_rays(const volume_visibility *v, const shadow_source *source, l
     shadow_lanes along, around;
     shadow_samples samples;
     trace_rays rays;
-    trace_hit hits[TRACE_LANES];
+    bool occluded[TRACE_LANES];
     for (int i = 0; i < TRACE_LANES; i++) {
         const float number = (float)(first + i), golden = 0.618033989f * number;
         sources[i] = source;
@@ -68,12 +68,12 @@ static void send_rays(const volume_visibility *v, const shadow_source *source, l
         rays.start[i] = 0;
         rays.length[i] = first + i < v->rays ? fmaxf(samples.length[i] - v->lift, 0) : -1;
     }
-    trace_nearest_n(v->bvh, TRACE_LIGHT, &rays, hits);
+    trace_occluded_n(v->bvh, &rays, occluded);
     for (int i = 0; i < TRACE_LANES && first + i < v->rays; i++) {
         const lmp_vec3 rgb = shadow_lane(&samples.arrives, i);
         const float arrives = rgb.x + rgb.y + rgb.z;
         sum->all += (double)arrives;
-        sum->unhidden += hits[i].instance == TRACE_NOTHING ? (double)arrives : 0;
+        sum->unhidden += occluded[i] ? 0 : (double)arrives;
     }
 }
 

@@ -190,11 +190,67 @@ static void hits_do_not_depend_on_embree_or_packets(void **state) {
     scene_free(&world);
 }
 
+/* Makes every third material a mask that cuts all of it out. */
+static void cut_out(scene *world, scene_material *materials) {
+    memcpy(materials, world->materials, world->material_count * sizeof *materials);
+    for (size_t i = 0; i < world->material_count; i += 3) {
+        materials[i].flags |= SCENE_ALPHA_MASK;
+        materials[i].base_color[3] = 0;
+        materials[i].alpha_cutoff = 0.5f;
+    }
+    world->materials = materials;
+}
+
+/* A ray is occluded if, and only if, its nearest hit lies within its length, alone and side by
+ * side. */
+static void the_nearest_hit_occludes(void **state) {
+    (void)state;
+    scene world = load("builtin:atrium");
+    const scene_material *own = world.materials;
+    scene_material *materials = malloc(world.material_count * sizeof *materials);
+    trace_hit *hits = calloc(RAYS, sizeof *hits);
+    int occluded = 0;
+    assert_true(hits && materials);
+    cut_out(&world, materials);
+    find(&world, TRACE_LIGHT, true, hits);
+    trace_bvh *bvh = trace_create(&world);
+    assert_non_null(bvh);
+    for (int first = 0; first < RAYS; first += TRACE_LANES) {
+        trace_rays rays;
+        bool found[TRACE_LANES];
+        aim(first / COLUMNS, first % COLUMNS, &rays);
+        for (int i = 0; i < TRACE_LANES; i++) {
+            const float distance = hits[first + i].distance;
+            const float lengths[4] = { distance, nextafterf(distance, 0), 2 * distance, -1 };
+            rays.length[i] = lengths[(first / TRACE_LANES + i) % 4];
+        }
+        trace_occluded_n(bvh, &rays, found);
+        for (int i = 0; i < TRACE_LANES; i++) {
+            const float from[3] = { rays.origin[0][i], rays.origin[1][i], rays.origin[2][i] };
+            const float along[3] = { rays.direction[0][i], rays.direction[1][i],
+                                     rays.direction[2][i] };
+            const bool within = hits[first + i].instance != TRACE_NOTHING &&
+                                hits[first + i].distance <= rays.length[i];
+            assert_int_equal(found[i], within);
+            if (rays.length[i] >= 0)
+                assert_int_equal(trace_occluded(bvh, from, along, rays.length[i]), within);
+            occluded += within;
+        }
+    }
+    assert_true(occluded > RAYS / 4);
+    trace_destroy(bvh);
+    free(hits);
+    world.materials = own;
+    free(materials);
+    scene_free(&world);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_hit_is_where_the_ray_meets_the_plane),
         cmocka_unit_test(no_ray_slips_between_triangles),
         cmocka_unit_test(hits_do_not_depend_on_embree_or_packets),
+        cmocka_unit_test(the_nearest_hit_occludes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,7 +108,7 @@ static void add_sample(const lighting *l, uint32_t number, const chosen_lanes *c
     shadow_lanes u, v, cosine;
     shadow_samples samples;
     trace_rays rays;
-    trace_hit hits[TRACE_LANES];
+    bool occluded[TRACE_LANES];
     for (int i = 0; i < SHADOW_LANES; i++) {
         double xy[2];
         transfer_sequence((double)number, (double)(lanes->first + (size_t)i), xy);
@@ -129,9 +129,9 @@ static void add_sample(const lighting *l, uint32_t number, const chosen_lanes *c
         if (chosen->source[i]->kind == SHADOW_AREA && rays.length[i] >= 0)
             shadow_end_at_area(shadow_lane(&p->position, i), i, &rays);
     }
-    trace_nearest_n(l->view->bvh, TRACE_LIGHT, &rays, hits);
+    trace_occluded_n(l->view->bvh, &rays, occluded);
     for (int i = 0; i < lanes->count; i++)
-        if (rays.length[i] > 0 && hits[i].instance == TRACE_NOTHING) {
+        if (rays.length[i] > 0 && !occluded[i]) {
             const lmp_vec3 arrives = shadow_lane(&samples.arrives, i);
             const float factor = chosen->factor[i] * cosine[i];
             if (isfinite(factor * (arrives.x + arrives.y + arrives.z)))

@@ -18,12 +18,6 @@ static const float off_surface = 0.02f, sag = 0.13f;
 
 /* --- rays ------------------------------------------------------------------------------------- */
 
-static trace_hit cast(const trace_bvh *bvh, lmp_vec3 from, lmp_vec3 direction) {
-    const float origin[3] = { from.x, from.y, from.z };
-    const float along[3] = { direction.x, direction.y, direction.z };
-    return trace_nearest(bvh, TRACE_LIGHT, origin, along);
-}
-
 /* Returns direction k from a surfel, distributed as the cosine. */
 static lmp_vec3 direction_of(const lmp_transfer_surfel *surfel, size_t index, size_t k) {
     double xy[2];
@@ -44,7 +38,9 @@ typedef struct met {
 } met;
 
 static met meet(const scene *world, const trace_bvh *bvh, lmp_vec3 from, lmp_vec3 direction) {
-    const trace_hit hit = cast(bvh, from, direction);
+    const float origin[3] = { from.x, from.y, from.z };
+    const float along[3] = { direction.x, direction.y, direction.z };
+    const trace_hit hit = trace_nearest(bvh, TRACE_LIGHT, origin, along);
     float corners[3][3];
     met found = { .distance = INFINITY };
     if (hit.instance == TRACE_NOTHING)
@@ -94,7 +90,8 @@ static bool sees(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal, uin
     const float off = off_surface * view->cells->surfels->spacing + sag * distance;
     const lmp_vec3 from = vec_add(point, vec_scale(normal, off));
     const lmp_vec3 way = vec_sub(vec_add(to->position, vec_scale(to->normal, off)), from);
-    return cast(view->bvh, from, way).distance >= 1;
+    const float origin[3] = { from.x, from.y, from.z }, along[3] = { way.x, way.y, way.z };
+    return !trace_occluded(view->bvh, origin, along, 1);
 }
 
 /* Returns the first of the `tried` nearest surfels that is seen from a point, or else the nearest,

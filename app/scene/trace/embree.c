@@ -7,8 +7,7 @@ RTCDevice embree_device_create(void) {
     return rtcNewDevice(getenv("LAMPION_EMBREE"));
 }
 
-void embree_set_rays(const trace_rays *rays, struct RTCRayHit16 *query, int valid[TRACE_LANES]) {
-    struct RTCRay16 *packet = &query->ray;
+void embree_set_rays(const trace_rays *rays, struct RTCRay16 *packet, int valid[TRACE_LANES]) {
     for (int i = 0; i < TRACE_LANES; i++) {
         valid[i] = rays->length[i] >= 0 ? -1 : 0;
         packet->org_x[i] = rays->origin[0][i];
@@ -23,8 +22,12 @@ void embree_set_rays(const trace_rays *rays, struct RTCRayHit16 *query, int vali
         packet->id[i] = (unsigned)i;
         packet->time[i] = 0;
         packet->flags[i] = 0;
-        query->hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
+}
+
+void embree_clear_hits(struct RTCHit16 *hits) {
+    for (int i = 0; i < TRACE_LANES; i++)
+        hits->geomID[i] = RTC_INVALID_GEOMETRY_ID;
 }
 
 #if defined __has_feature

@@ -41,7 +41,10 @@ void embree_commit(RTCScene tree);
 void embree_enter(void);
 void embree_leave(void);
 
-/* Makes a query of rays, numbered by their lanes; valid marks lanes that hold a ray. */
-void embree_set_rays(const trace_rays *rays, struct RTCRayHit16 *query, int valid[TRACE_LANES]);
+/* Makes a packet of rays, numbered by their lanes; valid marks lanes that hold a ray. */
+void embree_set_rays(const trace_rays *rays, struct RTCRay16 *packet, int valid[TRACE_LANES]);
+
+/* Sets the hits of a packet to none. */
+void embree_clear_hits(struct RTCHit16 *hits);
 
 #endif

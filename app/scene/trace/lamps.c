@@ -165,7 +165,8 @@ void trace_lamps_nearest_n(const trace_lamps *s, const trace_rays *rays, bool fo
     lamp_context context;
     struct RTCRayHit16 query;
     _Alignas(64) int valid[TRACE_LANES];
-    embree_set_rays(rays, &query, valid);
+    embree_set_rays(rays, &query.ray, valid);
+    embree_clear_hits(&query.hit);
     for (int i = 0; i < TRACE_LANES; i++)
         if (hits[i].distance < query.ray.tfar[i])
             query.ray.tfar[i] = hits[i].distance;

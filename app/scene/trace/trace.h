@@ -33,4 +33,12 @@ trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origi
 void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *rays,
                      trace_hit hits[TRACE_LANES]);
 
+/* Whether a triangle stops a ray of light within `length` >= 0, in lengths of the direction. The
+ * answer is that of the nearest hit, but the first hit found gives it. */
+bool trace_occluded(const trace_bvh *bvh, const float origin[3], const float direction[3],
+                    float length);
+
+/* Whether triangles stop rays of light side by side; false in lanes that hold none. */
+void trace_occluded_n(const trace_bvh *bvh, const trace_rays *rays, bool occluded[TRACE_LANES]);
+
 #endif

@@ -89,7 +89,8 @@ static bool add_triangles(const trace_bvh *bvh, trace_mesh *mesh, RTCScene tree,
     rtcSetGeometryUserPrimitiveCount(geometry, mesh->group_count);
     rtcSetGeometryUserData(geometry, mesh);
     rtcSetGeometryBoundsFunction(geometry, find_bounds, NULL);
-    rtcSetGeometryIntersectFunction(geometry, bvh->test);
+    rtcSetGeometryIntersectFunction(geometry, bvh->intersect);
+    rtcSetGeometryOccludedFunction(geometry, bvh->occlude);
     return attach(bvh->device, tree, geometry, number);
 }
 
@@ -198,8 +199,10 @@ static bool make_corners(trace_bvh *bvh) {
     return true;
 }
 
-bool tree_build(trace_bvh *bvh, const scene *world, RTCIntersectFunctionN test) {
-    bvh->test = test;
+bool tree_build(trace_bvh *bvh, const scene *world, RTCIntersectFunctionN intersect,
+                RTCOccludedFunctionN occlude) {
+    bvh->intersect = intersect;
+    bvh->occlude = occlude;
     bvh->scene = world;
     bvh->meshes = calloc(world->mesh_count + 1, sizeof *bvh->meshes);
     bvh->instances = calloc(world->instance_count + 1, sizeof *bvh->instances);

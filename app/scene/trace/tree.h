@@ -49,12 +49,14 @@ struct trace_bvh {
     uint32_t *groups;          /* of all meshes */
     RTCDevice device;
     RTCScene rays;
-    RTCIntersectFunctionN test;
+    RTCIntersectFunctionN intersect; /* tests of a group, for the nearest hit and for any */
+    RTCOccludedFunctionN occlude;
 };
 
 /* Builds the trees of a scene into a zeroed *bvh; geometries have the numbers of their instances.
  * Returns false if memory ran out. */
-bool tree_build(trace_bvh *bvh, const scene *scene, RTCIntersectFunctionN test);
+bool tree_build(trace_bvh *bvh, const scene *scene, RTCIntersectFunctionN intersect,
+                RTCOccludedFunctionN occlude);
 
 /* Frees the trees and arrays. */
 void tree_free(trace_bvh *bvh);
