@@ -94,27 +94,24 @@ static bool sees(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal, uin
     return !trace_occluded(view->bvh, origin, along, 1);
 }
 
-/* Returns the first of the `tried` nearest surfels that is seen from a point, or else the nearest,
- * because curved surfaces hide parts of themselves; *seen says which. */
+/* Returns the first of the nearest surfels, from number `first` on, that is seen from a point, or
+ * else the nearest, because curved surfaces hide parts of themselves. */
 static uint32_t find_seen(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal, float cosine,
-                          size_t tried, bool *seen) {
+                          size_t first) {
     uint32_t found[TRIED_MAX];
-    const size_t count = transfer_cells_find(view->cells, point, normal, cosine, tried, found);
-    *seen = false;
-    for (size_t i = 0; i < count && !*seen; i++)
-        if ((*seen = sees(view, point, normal, found[i])))
+    const size_t count = transfer_cells_find(view->cells, point, normal, cosine, TRIED_MAX, found);
+    for (size_t i = first; i < count; i++)
+        if (sees(view, point, normal, found[i]))
             return found[i];
     return count > 0 ? found[0] : LMP_TRANSFER_NONE;
 }
 
 uint32_t transfer_nearest(const transfer_view *view, lmp_vec3 point, lmp_vec3 normal) {
-    bool seen;
-    uint32_t nearest = find_seen(view, point, normal, hit_cosine, 1, &seen);
-    if (nearest != LMP_TRANSFER_NONE && !seen)
-        nearest = find_seen(view, point, normal, hit_cosine, TRIED_MAX, &seen);
-    if (nearest == LMP_TRANSFER_NONE)
-        nearest = find_seen(view, point, normal, -1, TRIED_MAX, &seen);
-    return nearest;
+    uint32_t nearest;
+    if (transfer_cells_find(view->cells, point, normal, hit_cosine, 1, &nearest) == 0)
+        return find_seen(view, point, normal, -1, 0);
+    return sees(view, point, normal, nearest) ? nearest
+                                              : find_seen(view, point, normal, hit_cosine, 1);
 }
 
 uint32_t transfer_source(const transfer_view *view, lmp_vec3 from, lmp_vec3 direction) {

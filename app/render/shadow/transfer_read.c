@@ -104,9 +104,9 @@ typedef struct square {
 } square;
 
 /* Returns how near a pixel is to the last pixel of its square along an axis, 0 … 1, where a square
- * has its first pixel at *first. */
+ * has its first pixel at *first; its size is a power of 2. */
 static float find_side(int at, int size, int end, int *first, int *last) {
-    *first = at / size * size;
+    *first = at & -size;
     *last = *first + size < end ? *first + size : end - 1;
     return *last > *first ? (float)(at - *first) / (float)(*last - *first) : 0;
 }
