@@ -21,9 +21,10 @@ static bool test_ray(const float *const corners[3], const float origin[3], const
                      triangle_hits *hits) {
     const float *const from[3] = { &origin[0], &origin[1], &origin[2] };
     const float *const along[3] = { &direction[0], &direction[1], &direction[2] };
+    const float end = INFINITY;
     triangle_rays ray;
     triangle_rays_set(from, along, 1, &ray);
-    return triangle_test(&ray, 0, 1, corners, hits);
+    return triangle_test(&ray, 0, 1, corners, &end, hits) != 0;
 }
 
 static unsigned count_hits(const float *const corners[3], const float origin[3],
@@ -65,6 +66,35 @@ static void a_hit_is_where_the_ray_meets_the_plane(void **state) {
         CHECK_WITHIN(fabs((double)hits.u[0] - weights[1]), 1e-4);
         CHECK_WITHIN(fabs((double)hits.v[0] - weights[2]), 1e-4);
         assert_int_equal(hits.front[0], facing < 0);
+    }
+}
+
+/* Rays side by side hit what each hits by itself, unless it ends before. */
+static void rays_side_by_side_end_where_each_ends(void **state) {
+    (void)state;
+    const float a[3] = { -1, -1, 2 }, b[3] = { 1, -1, 2 }, c[3] = { 0, 1, 3 };
+    const float *const corners[3] = { a, b, c };
+    float origin[3][TRIANGLE_LANES] = { { 0 } }, direction[3][TRIANGLE_LANES];
+    float ends[TRIANGLE_LANES];
+    const float *const from[3] = { origin[0], origin[1], origin[2] };
+    const float *const along[3] = { direction[0], direction[1], direction[2] };
+    const uint32_t counts[] = { 1, 4, 8, TRIANGLE_LANES };
+    for (int round = 0; round < 200; round++) {
+        const uint32_t count = counts[round % 4];
+        uint32_t expected = 0;
+        triangle_rays rays;
+        triangle_hits hits;
+        for (uint32_t i = 0; i < count; i++) {
+            for (int k = 0; k < 3; k++)
+                direction[k][i] = (float)check_random_between(k < 2 ? -0.5 : 0.9, k < 2 ? 0.5 : 1);
+            ends[i] = (float)check_random_between(1.5, 3.5);
+            const float start[3] = { 0 },
+                        to[3] = { direction[0][i], direction[1][i], direction[2][i] };
+            const bool met = test_ray(corners, start, to, &hits) && hits.distance[0] <= ends[i];
+            expected |= (uint32_t)met << i;
+        }
+        triangle_rays_set(from, along, count, &rays);
+        assert_int_equal(triangle_test(&rays, 0, count, corners, ends, &hits), expected);
     }
 }
 
@@ -248,6 +278,7 @@ static void the_nearest_hit_occludes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_hit_is_where_the_ray_meets_the_plane),
+        cmocka_unit_test(rays_side_by_side_end_where_each_ends),
         cmocka_unit_test(no_ray_slips_between_triangles),
         cmocka_unit_test(hits_do_not_depend_on_embree_or_packets),
         cmocka_unit_test(the_nearest_hit_occludes),

@@ -130,36 +130,37 @@ static void consider(const trace_packet *p, unsigned lane, triangle_hit hit) {
 /* Up to this many active lanes of a packet are tested one at a time, by the same arithmetic. */
 enum { FEW = 3 };
 
-static bool are_few(const int *valid, unsigned count) {
-    unsigned sum = 0;
+/* Returns the active lanes of a packet, lane i as bit i. */
+static uint32_t active_of(const int *valid, unsigned count) {
+    uint32_t active = 0;
     for (unsigned i = 0; i < count; i++)
-        sum += valid[i] != 0;
-    return sum <= FEW;
+        active |= (uint32_t)(valid[i] != 0) << i;
+    return active;
 }
 
-/* Returns the number of the packet's first ray: the numbers of active rays are consecutive. */
-static unsigned first_ray(const trace_packet *p, const int *valid) {
-    unsigned lane = 0;
-    while (lane + 1 < p->lanes.count && !valid[lane])
-        lane++;
-    return *embree_number(&p->lanes, EMBREE_RAY, lane) - lane;
+/* Takes the lowest of some lanes out of them. */
+static unsigned next_lane(uint32_t *lanes) {
+    const unsigned lane = (unsigned)__builtin_ctz(*lanes);
+    *lanes &= *lanes - 1;
+    return lane;
 }
 
-static void meet(trace_packet *p, const int *valid, unsigned first, bool few) {
-    const unsigned count = p->lanes.count;
-    const float *corners[3];
+/* Tests the packet's active rays against its triangle; `first` is the number of the ray that lane 0
+ * holds. */
+static void meet(trace_packet *p, uint32_t active, unsigned first, bool few) {
+    const triangle_rays *const rays = &p->context->rays;
+    const float *const ends = embree_value(&p->lanes, EMBREE_END, 0), *corners[3];
     float moved[3][3];
     triangle_hits hits;
     tree_corners(p->instance, p->triangle, moved, corners);
-    if (few) {
-        for (unsigned i = 0; i < count; i++)
-            if (valid[i] && triangle_test(&p->context->rays, first + i, 1, corners, &hits))
-                consider(p, i, triangle_hit_at(&hits, 0));
-    } else if (triangle_test(&p->context->rays, first, count, corners, &hits)) {
-        const float *ends = embree_value(&p->lanes, EMBREE_END, 0);
-        for (unsigned i = 0; i < count; i++)
-            if (valid[i] && hits.distance[i] <= ends[i]) /* most miss, or hit something nearer */
-                consider(p, i, triangle_hit_at(&hits, i));
+    if (!few)
+        active &= triangle_test(rays, first, p->lanes.count, corners, ends, &hits);
+    while (active) {
+        const unsigned lane = next_lane(&active);
+        if (!few)
+            consider(p, lane, triangle_hit_at(&hits, lane));
+        else if (triangle_test(rays, first + lane, 1, corners, ends + lane, &hits))
+            consider(p, lane, triangle_hit_at(&hits, 0));
     }
 }
 
@@ -168,6 +169,9 @@ static void meet(trace_packet *p, const int *valid, unsigned first, bool few) {
 static void meet_group(embree_packet lanes, bool any, const struct RTCIntersectContext *embree,
                        const int *valid, unsigned geometry, unsigned primitive) {
     const trace_context *context = (const trace_context *)(const void *)embree;
+    const uint32_t active = active_of(valid, lanes.count);
+    if (active == 0)
+        return;
     const unsigned outer = context->embree.instID[0];
     const uint32_t number = outer == RTC_INVALID_GEOMETRY_ID ? geometry : outer;
     trace_packet p = { .lanes = lanes,
@@ -176,10 +180,12 @@ static void meet_group(embree_packet lanes, bool any, const struct RTCIntersectC
                        .context = context,
                        .number = number };
     const uint32_t *group = &p.instance->groups[primitive];
-    const unsigned first = first_ray(&p, valid);
-    const bool few = are_few(valid, lanes.count);
+    /* the numbers of active rays are consecutive */
+    const unsigned lane = (unsigned)__builtin_ctz(active);
+    const unsigned first = *embree_number(&lanes, EMBREE_RAY, lane) - lane;
+    const bool few = __builtin_popcount(active) <= FEW;
     for (p.triangle = group[0]; p.triangle < group[1]; p.triangle++)
-        meet(&p, valid, first, few);
+        meet(&p, active, first, few);
 }
 
 static void intersect(const struct RTCIntersectFunctionNArguments *a) {

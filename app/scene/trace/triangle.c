@@ -112,9 +112,11 @@ static inline bool find_sides(const corner_lanes at[3], size_t count, side_lanes
     return any;
 }
 
-static inline void find_hits(const triangle_rays *rays, size_t first, size_t count,
-                             const corner_lanes at[3], const side_lanes *sides,
-                             triangle_hits *hits) {
+/* Returns the rays that hit the triangle before they end. */
+static inline uint32_t find_hits(const triangle_rays *rays, size_t first, size_t count,
+                                 const corner_lanes at[3], const side_lanes *sides,
+                                 const float *ends, triangle_hits *hits) {
+    uint32_t before = 0;
     for (size_t i = 0; i < count; i++) {
         const float u = sides->weights[0][i], v = sides->weights[1][i], w = sides->weights[2][i];
         const float sum = u + v + w, scale = 1 / sum;
@@ -125,33 +127,34 @@ static inline void find_hits(const triangle_rays *rays, size_t first, size_t cou
         hits->u[i] = v * scale;
         hits->v[i] = w * scale;
         hits->front[i] = (sum > 0) == (rays->shear[0][first + i] > 0);
+        before |= (uint32_t)(hits->distance[i] <= ends[i]) << i;
     }
+    return before;
 }
 
-static inline bool test(const triangle_rays *rays, size_t first, size_t count,
-                        const float *const corners[3], triangle_hits *hits) {
+static inline uint32_t test(const triangle_rays *rays, size_t first, size_t count,
+                            const float *const corners[3], const float *ends, triangle_hits *hits) {
     corner_lanes at[3];
     side_lanes sides;
     move_corners(rays, first, count, corners, at);
-    if (!find_sides(at, count, &sides))
-        return false;
-    find_hits(rays, first, count, at, &sides, hits);
-    return true;
+    return find_sides(at, count, &sides) ? find_hits(rays, first, count, at, &sides, ends, hits)
+                                         : 0;
 }
 
 /* Embree's packets have these widths; each gets loops of constant length. */
-TRACE_WIDE bool triangle_test(const triangle_rays *rays, size_t first, size_t count,
-                              const float *const corners[3], triangle_hits *hits) {
+TRACE_WIDE uint32_t triangle_test(const triangle_rays *rays, size_t first, size_t count,
+                                  const float *const corners[3], const float *ends,
+                                  triangle_hits *hits) {
     switch (count) {
     case 1:
-        return test(rays, first, 1, corners, hits);
+        return test(rays, first, 1, corners, ends, hits);
     case 4:
-        return test(rays, first, 4, corners, hits);
+        return test(rays, first, 4, corners, ends, hits);
     case 8:
-        return test(rays, first, 8, corners, hits);
+        return test(rays, first, 8, corners, ends, hits);
     case 16:
-        return test(rays, first, 16, corners, hits);
+        return test(rays, first, 16, corners, ends, hits);
     default:
-        return test(rays, first, count, corners, hits);
+        return test(rays, first, count, corners, ends, hits);
     }
 }

@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #define TRIANGLE_LANES 16
 
@@ -41,14 +42,15 @@ static inline triangle_hit triangle_hit_at(const triangle_hits *hits, size_t i) 
     return (triangle_hit) { hits->distance[i], hits->u[i], hits->v[i], hits->front[i] };
 }
 
-/* Tests rays `first` to first + count - 1 against a triangle of three corners; results begin at
- * index 0. Returns false, and leaves *hits alone, if all rays miss.
+/* Tests rays `first` to first + count - 1 against a triangle of three corners; results, and the
+ * distances where the rays end, begin at index 0. Returns the rays that hit it up to there, ray i
+ * as bit i; the hits of other rays may not be set.
  *
  * Of triangles that share an edge or a corner, at least one is hit: the side on which an edge
  * passes depends on its corners alone, each moved into the ray's space by itself, and is never
  * rounded to the other side. A distance is a mean of the corners' own with weights that are never
  * negative, so that it lies within the triangle's bounds however grazing the ray. */
-bool triangle_test(const triangle_rays *rays, size_t first, size_t count,
-                   const float *const corners[3], triangle_hits *hits);
+uint32_t triangle_test(const triangle_rays *rays, size_t first, size_t count,
+                       const float *const corners[3], const float *ends, triangle_hits *hits);
 
 #endif
