@@ -132,10 +132,25 @@ enum { FEW = 3 };
 
 /* Returns the active lanes of a packet, lane i as bit i. */
 static uint32_t active_of(const int *valid, unsigned count) {
+    static const uint32_t bits[TRACE_LANES] = { 1u << 0,  1u << 1,  1u << 2,  1u << 3,
+                                                1u << 4,  1u << 5,  1u << 6,  1u << 7,
+                                                1u << 8,  1u << 9,  1u << 10, 1u << 11,
+                                                1u << 12, 1u << 13, 1u << 14, 1u << 15 };
     uint32_t active = 0;
+    if (count == TRACE_LANES) {
+        for (unsigned i = 0; i < TRACE_LANES; i++)
+            active |= (uint32_t)valid[i] & bits[i];
+        return active;
+    }
     for (unsigned i = 0; i < count; i++)
-        active |= (uint32_t)(valid[i] != 0) << i;
+        active |= (uint32_t)valid[i] & bits[i];
     return active;
+}
+
+static bool are_few(uint32_t active) {
+    for (int i = 0; i < FEW; i++)
+        active &= active - 1;
+    return active == 0;
 }
 
 /* Takes the lowest of some lanes out of them. */
@@ -183,7 +198,7 @@ static void meet_group(embree_packet lanes, bool any, const struct RTCIntersectC
     /* the numbers of active rays are consecutive */
     const unsigned lane = (unsigned)__builtin_ctz(active);
     const unsigned first = *embree_number(&lanes, EMBREE_RAY, lane) - lane;
-    const bool few = __builtin_popcount(active) <= FEW;
+    const bool few = are_few(active);
     for (p.triangle = group[0]; p.triangle < group[1]; p.triangle++)
         meet(&p, active, first, few);
 }
