@@ -97,8 +97,10 @@ static bool open_studio(const environment_options *options, float strength, cons
     e->exposure = sunlight(world) > 0 ? 0.0f : 1.0f; /* a sky's strength is that of its sun */
     if (e->exposure > 0 && (!options->name || is_dark(world))) /* no name: it is dark */
         e->faint = world->light_count;
+    /* the suns light the paper, too */
+    const float shown = strength + sunlight(world) / STUDIO_IRRADIANCE;
     return check_radiance(&e->light, strength, "studio", error) &&
-           check_radiance(&e->backdrop, strength, "studio", error);
+           check_radiance(&e->backdrop, shown, "studio", error);
 }
 
 environment_options environment_choose(const environment_options *options, const scene *world) {

@@ -286,6 +286,9 @@ static scene sunny_scene(bool cap, int count) {
 
 static void the_studio_is_the_sky_of_lone_suns(void **state) {
     (void)state;
+    environment plain;
+    base_error plain_error;
+    assert_true(environment_make_studio(&plain, &plain_error));
     for (int k = 0; k < 6; k++) {
         const scene world = sunny_scene(k & 1, 1 + (k > 1));
         const environment_options options = { .strength = k > 3 ? 3 : 1 };
@@ -296,11 +299,17 @@ static void the_studio_is_the_sky_of_lone_suns(void **state) {
         assert_true(environment_project(&e, 3, &error));
         const lmp_rgb ground = lmp_probe_irradiance(3, e.sh, (lmp_vec3) { 0, 1, 0 });
         CHECK_WITHIN(fabs((double)(ground.g / options.strength) - 0.2 * 10), 0.05);
+        /* What is seen of it is paper that the suns light as well. */
+        const int middle = 3 * (e.backdrop.height / 3 * e.backdrop.width + e.backdrop.width / 2);
+        const float lit = (0.2f * options.strength + 1) * 10 / STUDIO_IRRADIANCE;
+        CHECK_WITHIN(fabs((double)(e.backdrop.rgb[middle] / plain.backdrop.rgb[middle] / lit) - 1),
+                     1e-4);
         /* The exposure is that of what is seen, also when the suns have been removed. */
         assert_true(environment_exposure(&e, world.light_count) <= 0 &&
                     environment_exposure(&e, 0) <= 0);
         environment_free(&e);
     }
+    environment_free(&plain);
     scene blinding = sunny_scene(false, 1);
     blinding.lights[0].emitter.irradiance.r = 1e18f;
     const environment_options none = ENVIRONMENT_DEFAULTS;
