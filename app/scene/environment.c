@@ -69,7 +69,7 @@ static float sunlight(const scene *world) {
     float suns = 0, glow = 0;
     for (size_t i = 0; i < world->light_count; i++) {
         const lmp_light *light = &world->lights[i].emitter;
-        if (light->kind == LMP_LIGHT_DIRECTIONAL || light->kind == LMP_LIGHT_CAP)
+        if (scene_light_is_sun(light))
             suns += mean_of(lmp_light_irradiance(light, 1, vec(0, 0, 0), light->direction));
         else if (world->lights[i].hidden && scene_light_extent(light) > 0)
             glow = fmaxf(glow, PI * mean_of(light->radiance));

@@ -239,6 +239,10 @@ bool scene_light_is_area(const lmp_light *light) {
     return lmpi_light_is_area(light);
 }
 
+bool scene_light_is_sun(const lmp_light *light) {
+    return light->kind == LMP_LIGHT_DIRECTIONAL || light->kind == LMP_LIGHT_CAP;
+}
+
 const scene_light *scene_find_area(const scene_light *lights, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (scene_light_is_area(&lights[i].emitter))

@@ -84,6 +84,9 @@ bool scene_light_is_drawn(const scene_light *light);
 /* Whether a light is an area: a rectangle, a disk, a tube or a polygon. */
 bool scene_light_is_area(const lmp_light *light);
 
+/* Whether a light is far away, and narrow enough that one may face it: not a hemisphere. */
+bool scene_light_is_sun(const lmp_light *light);
+
 /* Returns the first of the lights that is an area, or NULL. */
 const scene_light *scene_find_area(const scene_light *lights, size_t count);
 

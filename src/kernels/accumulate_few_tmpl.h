@@ -107,10 +107,10 @@ LMPI_INLINE few_members few_members_at(const lmpi_kernel_lights *lights, size_t 
                              radiance->x + i, radiance->y + i, radiance->z + i } };
 }
 
-/* Copies the lights from light i to `end`, which do not lie in planes, into some. Written once for
- * all numbers of bands, because this is long code. */
-static LMPI_NOINLINE few_members few_gather(const lmpi_kernel_lights *lights, size_t i, size_t end,
-                                            float (*to)[FEW_AHEAD * LMPI_LANES]) {
+/* Copies the lights from light i to `end`, which do not lie in planes, into planes. Written once
+ * for all numbers of bands, because this is long code. */
+static LMPI_NOINLINE few_members few_copy(const lmpi_kernel_lights *lights, size_t i, size_t end,
+                                          float (*to)[FEW_AHEAD * LMPI_LANES]) {
     const lmp_vec3_array *center = &lights->center, *radiance = &lights->radiance;
     const size_t radius = lights->radius.stride;
     const size_t strides[7] = { center->stride,   center->stride,   center->stride,  radius,
@@ -278,7 +278,7 @@ LMPI_INLINE void few_lights(int bands, int straight, const lmpi_kernel_lights *l
     few_lanes *lanes = work->ahead;
     const few_members members = few_are_planes(lights)
                                     ? few_members_at(lights, i)
-                                    : few_gather(lights, i, i + end, work->members);
+                                    : few_copy(lights, i, i + end, work->members);
     LMPI_ROLLED for (size_t k = 0; k < end; k += LMPI_LANES, lanes++)
         few_begin(bands, lights, &members, i, k, layout_live(end, k), points, element, lanes);
     lanes = work->ahead;
