@@ -286,7 +286,7 @@ static scene sunny_scene(bool cap, int count) {
 
 static void the_studio_is_the_sky_of_lone_suns(void **state) {
     (void)state;
-    environment plain;
+    environment plain = { .bands = 0 };
     base_error plain_error;
     assert_true(environment_make_studio(&plain, &plain_error));
     for (int k = 0; k < 6; k++) {
