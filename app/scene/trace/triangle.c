@@ -45,18 +45,14 @@ typedef struct corner {
     float along, x, y;
 } corner;
 
-/* Moves a corner into the space of ray k. */
-static inline corner move_corner(const triangle_rays *r, size_t k, float z, float x, float y) {
-    const float along = z - r->origin[0][k];
-    return (corner) { along, x - r->origin[1][k] - r->shear[1][k] * along,
-                      y - r->origin[2][k] - r->shear[2][k] * along };
-}
-
-/* Does so for a corner at p, along the ray's own axis. */
-static inline corner move_along(const triangle_rays *r, size_t k, const float *p) {
-    const int axis = r->axis[k];
-    return move_corner(r, k, pick(axis, p[0], p[1], p[2]), pick(axis, p[1], p[2], p[0]),
-                       pick(axis, p[2], p[0], p[1]));
+/* Moves the corner at p into the space of ray k; `turned` means that the coordinates of p are in
+ * the order of the ray's axes already. */
+static inline corner move_corner(const triangle_rays *r, size_t k, bool turned, const float *p) {
+    const int axis = turned ? 0 : r->axis[k];
+    const float along = pick(axis, p[0], p[1], p[2]) - r->origin[0][k];
+    return (corner) { along,
+                      pick(axis, p[1], p[2], p[0]) - r->origin[1][k] - r->shear[1][k] * along,
+                      pick(axis, p[2], p[0], p[1]) - r->origin[2][k] - r->shear[2][k] * along };
 }
 
 /* For each ray, the corners' positions along its axis, and their weights up to a common factor:
@@ -81,28 +77,24 @@ static inline int is_inside(float u, float v, float w) {
 }
 
 /* Computes again the sides that are 0. */
-static void find_exact_sides(const triangle_rays *rays, size_t first, size_t count,
+static void find_exact_sides(const triangle_rays *rays, size_t first, size_t count, bool turned,
                              const float *const corners[3], side_lanes *sides) {
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
             if (sides->weights[k][i] == 0)
                 sides->weights[k][i] =
-                    exact_side_of(move_along(rays, first + i, corners[(k + 1) % 3]),
-                                  move_along(rays, first + i, corners[(k + 2) % 3]));
+                    exact_side_of(move_corner(rays, first + i, turned, corners[(k + 1) % 3]),
+                                  move_corner(rays, first + i, turned, corners[(k + 2) % 3]));
 }
 
-/* Computes the sides of the three edges; returns whether any ray may hit. `axis` is that of all
- * rays, or -1. */
-static inline bool find_sides(const triangle_rays *rays, size_t first, size_t count, int axis,
+/* Computes the sides of the three edges; returns whether any ray may hit. */
+static inline bool find_sides(const triangle_rays *rays, size_t first, size_t count, bool turned,
                               const float *const corners[3], side_lanes *sides) {
-    const int z = axis < 0 ? 0 : axis, x = (z + 1) % 3, y = (z + 2) % 3;
-    const float *const p = corners[0], *const q = corners[1], *const s = corners[2];
     int any = 0, some = 0;
     for (size_t i = 0; i < count; i++) {
-        const size_t k = first + i;
-        const corner a = axis < 0 ? move_along(rays, k, p) : move_corner(rays, k, p[z], p[x], p[y]);
-        const corner b = axis < 0 ? move_along(rays, k, q) : move_corner(rays, k, q[z], q[x], q[y]);
-        const corner c = axis < 0 ? move_along(rays, k, s) : move_corner(rays, k, s[z], s[x], s[y]);
+        const corner a = move_corner(rays, first + i, turned, corners[0]);
+        const corner b = move_corner(rays, first + i, turned, corners[1]);
+        const corner c = move_corner(rays, first + i, turned, corners[2]);
         const float u = side_of(b, c), v = side_of(c, a), w = side_of(a, b);
         sides->along[0][i] = a.along;
         sides->along[1][i] = b.along;
@@ -114,7 +106,7 @@ static inline bool find_sides(const triangle_rays *rays, size_t first, size_t co
         any |= is_inside(u, v, w);
     }
     if (some)
-        find_exact_sides(rays, first, count, corners, sides);
+        find_exact_sides(rays, first, count, turned, corners, sides);
     return any;
 }
 
@@ -141,9 +133,14 @@ static inline uint32_t find_hits(const triangle_rays *rays, size_t first, size_t
 static inline uint32_t test(const triangle_rays *rays, size_t first, size_t count,
                             const float *const corners[3], const float *ends, triangle_hits *hits) {
     const int axis = count == 1 ? rays->axis[first] : rays->common;
+    float turned[3][3];
     side_lanes sides;
-    if (!(axis < 0 ? find_sides(rays, first, count, -1, corners, &sides)
-                   : find_sides(rays, first, count, axis, corners, &sides)))
+    for (int k = 0; axis >= 0 && k < 3; k++)
+        for (int c = 0; c < 3; c++)
+            turned[k][c] = corners[k][(axis + c) % 3];
+    const float *const at[3] = { turned[0], turned[1], turned[2] };
+    if (!(axis >= 0 ? find_sides(rays, first, count, true, at, &sides)
+                    : find_sides(rays, first, count, false, corners, &sides)))
         return 0;
     return find_hits(rays, first, count, &sides, ends, hits);
 }
