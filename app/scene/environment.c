@@ -90,15 +90,16 @@ static bool open_studio(const environment_options *options, float strength, cons
                         environment *e, base_error *error) {
     const scene_camera camera = scene_default_camera(world, 1);
     const float x = camera.eye[0] - camera.target[0], z = camera.eye[2] - camera.target[2];
+    const float suns = sunlight(world);
     if (!environment_make_studio(e, error))
         return false;
     e->azimuth += x * x + z * z > 0 ? (float)atan2((double)z, (double)x) : PI / 2;
     e->studio = true;
-    e->exposure = sunlight(world) > 0 ? 0.0f : 1.0f; /* a sky's strength is that of its sun */
+    e->exposure = suns > 0 ? 0.0f : 1.0f; /* a sky's strength is that of its sun */
     if (e->exposure > 0 && (!options->name || is_dark(world))) /* no name: it is dark */
         e->faint = world->light_count;
     /* the suns light the paper, too */
-    const float shown = strength + sunlight(world) / STUDIO_IRRADIANCE;
+    const float shown = strength + suns / STUDIO_IRRADIANCE;
     return check_radiance(&e->light, strength, "studio", error) &&
            check_radiance(&e->backdrop, shown, "studio", error);
 }

@@ -15,11 +15,10 @@ typedef enum environment_ground {
 } environment_ground;
 
 typedef struct environment_options {
-    const char
-        *name;      /* a file, "studio" or "none"; NULL: the studio if little but suns lights it */
-    float rotation; /* degrees, counter-clockwise as seen from above */
-    float strength; /* a factor on radiance */
-    int ground;     /* environment_ground */
+    const char *name; /* a file, "studio" or "none"; NULL: what environment_choose says */
+    float rotation;   /* degrees, counter-clockwise as seen from above */
+    float strength;   /* a factor on radiance */
+    int ground;       /* environment_ground */
 } environment_options;
 
 #define ENVIRONMENT_DEFAULTS                                                                       \

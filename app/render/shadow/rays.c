@@ -14,7 +14,7 @@ static bool sees_environment(const shadow_job *job) {
 }
 
 int shadow_job_sets(const shadow_job *job) {
-    return job->source_count > 1 && sees_environment(job) ? 2 : 1;
+    return job->source_count > 1 && sees_environment(job) ? SHADOW_SETS : 1;
 }
 
 /* Draws the next numbers in 0 … 1 for every pixel. */
