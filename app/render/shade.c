@@ -169,9 +169,11 @@ static inline int are_near3(float *const a[3], float *const b[3], size_t i) {
 }
 
 /* Marks the pixels of a row, from `first` on, at which two samples see the same surface at nearby
- * positions; layers are not compared. The loop has no branches, so that it is vectorized. */
+ * positions; layers are not compared. The loop has no branches and writes only what nothing else
+ * points to, so that it is vectorized. */
 static TRACE_WIDE void mark_alike(const render_surfaces *a, const render_surfaces *b, size_t first,
                                   int count, unsigned char *alike) {
+    int marks[RENDER_TILE];
     const render_nearness near = render_nearness_of(&b->camera);
     const float x = b->camera.eye[0], y = b->camera.eye[1], z = b->camera.eye[2];
 #pragma omp simd
@@ -186,8 +188,10 @@ static TRACE_WIDE void mark_alike(const render_surfaces *a, const render_surface
         same &= are_near3(a->base, b->base, i) & are_near3(a->emission, b->emission, i);
         same &= are_near(a->metallic, b->metallic, i) & are_near(a->roughness, b->roughness, i);
         same &= are_near(a->specular, b->specular, i) & are_near(a->ambient, b->ambient, i);
-        alike[k] = (unsigned char)same;
+        marks[k] = same;
     }
+    for (int k = 0; k < count; k++)
+        alike[k] = (unsigned char)marks[k];
 }
 
 static bool have_alike_layers(const render_surfaces *a, const render_surfaces *b, size_t i) {
@@ -214,19 +218,17 @@ static size_t list_pixels(const render_surfaces *s, const shade_sample *before, 
                           int width, uint32_t *list, float *rgba) {
     const size_t first = render_surfaces_at(s, x, y);
     unsigned char alike[RENDER_TILE] = { 0 };
-    size_t count = 0;
-    if (before && !(s->same && !memchr(s->same + first, 0, (size_t)width)))
+    size_t others[RENDER_TILE], count = 0;
+    const size_t other_count = render_surfaces_others(s, first, width, others);
+    if (before)
+        memcpy(rgba + 4 * first, before->rgba + 4 * first, 4 * (size_t)width * sizeof *rgba);
+    if (before && other_count > 0)
         mark_alike(before->surfaces, s, first, width, alike);
-    for (int i = 0; i < width; i++) {
-        const size_t pixel = first + (size_t)i;
-        float *const to = rgba + 4 * pixel;
+    for (size_t k = 0; k < other_count; k++) {
+        const size_t pixel = others[k], i = pixel - first;
         if (s->seen[pixel] >= RENDER_SEES_LIGHT)
-            set_pixel(to, render_surfaces_beyond(s, x + i, y));
-        else if (render_surfaces_same(s, pixel) ||
-                 (alike[i] && have_alike_layers(before->surfaces, s, pixel)))
-            set_pixel(to, (lmp_rgb) { before->rgba[4 * pixel], before->rgba[4 * pixel + 1],
-                                      before->rgba[4 * pixel + 2] });
-        else
+            set_pixel(rgba + 4 * pixel, render_surfaces_beyond(s, x + (int)i, y));
+        else if (!alike[i] || !have_alike_layers(before->surfaces, s, pixel))
             list[count++] = (uint32_t)pixel;
     }
     return count;

@@ -83,6 +83,17 @@ static inline bool render_surfaces_same(const render_surfaces *s, size_t pixel) 
     return s->same && s->same[pixel];
 }
 
+/* Lists the pixels among `count` from an index on that are not; returns how many there are. */
+static inline size_t render_surfaces_others(const render_surfaces *s, size_t first, int count,
+                                            size_t *list) {
+    size_t others = 0;
+    for (size_t at = first; at < first + (size_t)count; at++) {
+        list[others] = at;
+        others += !render_surfaces_same(s, at);
+    }
+    return others;
+}
+
 /* Whether a pixel, by its index, is a copy of the first sample's. */
 static inline bool render_surfaces_taken(const render_surfaces *s, size_t pixel) {
     return s->taken && s->taken[pixel];

@@ -51,7 +51,8 @@ static inline lmp_rgb rgb_scale(lmp_rgb a, float s) {
 
 /* Returns the brightest channel of a color. */
 static inline float rgb_brightest(const float color[3]) {
-    return fmaxf(color[0], fmaxf(color[1], color[2]));
+    const float brighter = color[1] > color[2] ? color[1] : color[2];
+    return color[0] > brighter ? color[0] : brighter;
 }
 
 static inline float vec_dot(lmp_vec3 a, lmp_vec3 b) {

@@ -2,6 +2,7 @@
 #include "app/study/paper_detail.h"
 
 #include "app/image/srgb.h"
+#include "app/scene/vector.h"
 
 #include <math.h>
 #include <string.h>
@@ -52,7 +53,7 @@ static paper_looks measure(const image *part) {
     const size_t count = (size_t)part->width * (size_t)part->height;
     for (size_t i = 0; i < count; i++) {
         const float *rgb = part->rgb + 3 * i;
-        const float high = fmaxf(rgb[0], fmaxf(rgb[1], rgb[2]));
+        const float high = rgb_brightest(rgb);
         spread += (double)(high - fminf(rgb[0], fminf(rgb[1], rgb[2])));
         most += (double)high;
     }

@@ -4,8 +4,7 @@
 #define LAMPION_RENDER_CPU_DRAWING_H
 
 #include "app/render/cpu/rays.h"
-
-#include <math.h>
+#include "app/scene/vector.h"
 
 typedef struct cpu_drawing {
     const render_frame *frame;
@@ -36,8 +35,7 @@ static inline float cpu_blended(const render_surfaces *s, size_t pixel) {
  * instead, which mixes blended surfaces exactly. */
 static inline void cpu_weigh_sample(float exposure, const float *rgba, float blended,
                                     float weighed[4]) {
-    const float brightest = fmaxf(rgba[0], fmaxf(rgba[1], rgba[2]));
-    weighed[3] = blended > 0 ? blended : 1 / (1 + exposure * brightest);
+    weighed[3] = blended > 0 ? blended : 1 / (1 + exposure * rgb_brightest(rgba));
     for (int c = 0; c < 3; c++)
         weighed[c] = rgba[c] * weighed[3];
 }

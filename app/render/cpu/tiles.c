@@ -30,6 +30,7 @@ typedef struct tile_work {
     void *pass; /* the work that the pass opened for this thread */
     float rgba[4 * RENDER_TILE_PIXELS], first_rgba[4 * RENDER_TILE_PIXELS];
     float weighed[4 * RENDER_TILE_PIXELS], sums[4 * RENDER_TILE_PIXELS]; /* the first; all */
+    uint16_t repeats[RENDER_TILE_PIXELS]; /* later samples of a pixel that are as the first */
     double now, seconds[STEPS];
 } tile_work;
 
@@ -137,21 +138,31 @@ static void weigh_first(float exposure, tile_work *w) {
         cpu_weigh_sample(exposure, w->first_rgba + 4 * at, cpu_blended(&w->first, at),
                          w->weighed + 4 * at);
     memcpy(w->sums, w->weighed, sizeof w->sums);
+    memset(w->repeats, 0, sizeof w->repeats);
 }
 
-/* Adds a later sample to the sums; a pixel that is the same as in the first sample has been weighed
- * already. */
+/* Adds a later sample to the sums. Pixels that are the same as in the first sample are counted, not
+ * added, unless the samples' weights differ: with blended surfaces. */
 static void add_later(float exposure, const render_rectangle *pixels, tile_work *w) {
-    for (int row = 0; row < pixels->height; row++)
-        for (int column = 0; column < pixels->width; column++) {
-            const size_t at = tile_index(row, column);
-            float *sum = w->sums + 4 * at;
-            if (w->surfaces.same[at] && !w->surfaces.weight)
-                for (int c = 0; c < 4; c++)
-                    sum[c] += w->weighed[4 * at + (size_t)c];
-            else
-                cpu_add_sample(exposure, w->rgba + 4 * at, cpu_blended(&w->surfaces, at), sum);
-        }
+    const render_surfaces *s = &w->surfaces;
+    if (s->weight) {
+        add_samples(exposure, s, pixels, w->rgba, w->sums);
+        return;
+    }
+    for (size_t at = 0; at < RENDER_TILE_PIXELS; at++)
+        w->repeats[at] = (uint16_t)(w->repeats[at] + s->same[at]);
+    for (int row = 0; row < pixels->height; row++) {
+        size_t list[RENDER_TILE];
+        const size_t others = render_surfaces_others(s, tile_index(row, 0), pixels->width, list);
+        for (size_t i = 0; i < others; i++)
+            cpu_add_sample(exposure, w->rgba + 4 * list[i], 0, w->sums + 4 * list[i]);
+    }
+}
+
+static void add_repeats(tile_work *w) {
+    for (size_t at = 0; at < RENDER_TILE_PIXELS; at++)
+        for (size_t i = 4 * at; i < 4 * at + 4; i++)
+            w->sums[i] += (float)w->repeats[at] * w->weighed[i];
 }
 
 static trace_hit *hits_of(const cpu_tiles *kept, int number) {
@@ -172,6 +183,8 @@ static void draw_alone(const tiles_job *job, int number, tile_work *w) {
             weigh_first(d->exposure, w);
         note_time(w, SHADE);
     }
+    if (d->samples > 1)
+        add_repeats(w);
     set_image(d, &at.pixels, w->first_rgba, w->sums);
     note_time(w, SHADE);
 }
