@@ -407,7 +407,9 @@ static int run(const cli_command *command, int argc, char **argv) {
         SHADOW_OPTION_ROWS(o.shadow),
         BOUNCES_OPTION_ROW(o.bounces),
         { "stats", 0, CLI_FLAG, &o.stats, NULL,
-          "print what was drawn and the time of each pass of a sample, as JSON", 0, 0, NULL, NULL },
+          "print what was drawn and the time of each pass, of one sample or those of --samples, as "
+          "JSON",
+          0, 0, NULL, NULL },
         { "repeat", 0, CLI_INT, &o.repeat, "N", "frames whose median --stats takes", 1,
           RENDER_REPEAT_MAX, NULL, NULL },
         { "compare-methods", 0, CLI_FLAG, &o.compare, NULL,

@@ -9,12 +9,18 @@
 
 enum { SHADE = 2, PASSES = 7 };
 
+/* Returns the samples per pixel of the frames that --stats times: one, as a frame in motion has,
+ * unless the option gives them. */
+static int timed_samples(const render_options *o) {
+    return o->samples_given ? o->samples : 1;
+}
+
 /* Measures the median of each pass over the repetitions of one method, after a frame to warm up. */
 static bool measure(render_job *j, method_kind method, double medians[PASSES], base_error *error) {
     static double samples[PASSES][RENDER_REPEAT_MAX];
     render_frame frame = j->frame;
     frame.method = method;
-    frame.samples = 1;
+    frame.samples = timed_samples(j->options);
     unsigned char *rgb8 = malloc(3 * (size_t)frame.width * (size_t)frame.height);
     bool ok = rgb8 || base_fail(error, NULL, "out of memory");
     ok = ok && renderer_draw(j->renderer, &frame, NULL, error);
@@ -130,7 +136,7 @@ static bool time_rest(render_job *j, double *milliseconds, base_error *error) {
     const float step = 0.002f * (j->world.maximum[0] - j->world.minimum[0]);
     bool ok = true;
     frame.method = METHOD_FIELD;
-    frame.samples = 1;
+    frame.samples = timed_samples(j->options);
     for (int i = 0; i < j->options->repeat && ok; i++) {
         render_times times;
         frame.camera.eye[0] += step;
@@ -173,6 +179,7 @@ bool render_print_stats(render_job *j, base_error *error) {
     stats = file_json_with(stats, "device", file_json_string(j->device.name));
     stats = file_json_with(stats, "driver", file_json_string(j->device.driver));
     stats = file_json_with(stats, "clock", json_string(render_device_clock(&j->device)));
+    stats = file_json_with(stats, "samples", json_integer(timed_samples(o)));
     stats = file_json_with(stats, "repeat", json_integer(o->repeat));
     stats = file_json_with(stats, "shading", json_string(device_table[j->device.kind].name));
     if (j->lobes) {

@@ -59,6 +59,9 @@ diff -r "$WORK/whole" "$WORK/range" || fail "a range differs from the whole"
 for word in '"triangles"' '"zonal_speedup"' '"coefficients"' '"device"' '"shade"' '"total"'; do
     grep -q "$word" "$WORK/stats" || fail "--stats without $word"
 done
+grep -q '"samples": 1,' "$WORK/stats" || fail "--stats times more than one sample unasked"
+"$PROGRAM" render builtin:balls --size 8x8 --samples 3 --stats --repeat 1 -o "$WORK/s.png" >"$WORK/stats"
+grep -q '"samples": 3,' "$WORK/stats" || fail "--stats does not time the samples of --samples"
 
 # A field draws what sums do, and is described.
 "$PROGRAM" render builtin:balls $small --method zonal --device cpu -o "$WORK/sums.exr"
