@@ -17,13 +17,30 @@ int shadow_job_sets(const shadow_job *job) {
     return job->source_count > 1 && sees_environment(job) ? SHADOW_SETS : 1;
 }
 
-/* Draws the next numbers in 0 … 1 for every pixel. */
-static TRACE_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shadow_lanes *u) {
+/* The sequences of a group's pixels. */
+typedef struct sequence_lanes {
+    uint32_t first[SHADOW_LANES], seed[SHADOW_LANES];
+} sequence_lanes;
+
+static TRACE_WIDE void set_sequences(const shadow_job *job, const shadow_group *group,
+                                     sequence_lanes *sequences) {
+    const uint32_t rays = (uint32_t)job->rays, seed = job->seed;
     for (int i = 0; i < SHADOW_LANES; i++) {
+        const shadow_sequence one = shadow_sequence_of(group->x[i], group->y[i], rays, seed);
+        sequences->first[i] = one.first;
+        sequences->seed[i] = one.seed;
+    }
+}
+
+/* Draws the next numbers in 0 … 1 for every pixel. */
+static TRACE_WIDE void draw(const sequence_lanes *sequences, uint32_t ray, shadow_lanes *u) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const shadow_sequence one = { sequences->first[i], sequences->seed[i] };
         float numbers[3];
-        shadow_draw(&sequences[i], ray, numbers);
-        for (int k = 0; k < 3; k++)
-            u[k][i] = numbers[k];
+        shadow_draw(&one, ray, numbers);
+        u[0][i] = numbers[0];
+        u[1][i] = numbers[1];
+        u[2][i] = numbers[2];
     }
 }
 
@@ -123,24 +140,37 @@ static float slope_of(float size, float length, float distance, float footprint)
     return 1 / (2 * size * distance * (length <= FLT_MAX ? beyond : 1) + 0.6f * footprint);
 }
 
-/* Adds the results of the rays to the pixels' sums: of those to source `around`, the environment,
- * to the last of the sets. */
-static TRACE_WIDE void add_shot(const shadow_shot *shot, int around, int sets,
-                                shadow_group *group) {
+/* Adds the results of those of the rays to a set of the pixels' sums that `weight` is 1 for, and
+ * not 0. */
+static TRACE_WIDE void add_results(const shadow_shot *shot, const shadow_lanes footprint,
+                                   const shadow_lanes weight, shadow_lanes *sums) {
     for (int i = 0; i < SHADOW_LANES; i++) {
-        shadow_lanes *const sums = group->sums[shot->source[i] == around ? sets - 1 : 0];
-        const float length = shot->rays.length[i], mean = shot->mean[i];
+        const float length = shot->rays.length[i], mean = weight[i] * shot->mean[i];
         const bool hidden = shot->distance[i] < length;
         const float slope =
-            slope_of(shot->size[i], length, hidden ? shot->distance[i] : 0, group->footprint[i]);
-        for (int c = 0; c < 3; c++) {
-            const float value = shot->value.of[c][i];
-            sums[SHADOW_ALL + c][i] += value;
-            sums[SHADOW_UNHIDDEN + c][i] += hidden ? 0 : value;
-        }
+            slope_of(shot->size[i], length, hidden ? shot->distance[i] : 0, footprint[i]);
+        const float r = weight[i] * shot->value.of[0][i], g = weight[i] * shot->value.of[1][i];
+        const float b = weight[i] * shot->value.of[2][i];
+        sums[SHADOW_ALL][i] += r;
+        sums[SHADOW_ALL + 1][i] += g;
+        sums[SHADOW_ALL + 2][i] += b;
+        sums[SHADOW_UNHIDDEN][i] += hidden ? 0 : r;
+        sums[SHADOW_UNHIDDEN + 1][i] += hidden ? 0 : g;
+        sums[SHADOW_UNHIDDEN + 2][i] += hidden ? 0 : b;
         sums[SHADOW_WEIGHT][i] += mean;
         sums[SHADOW_HIDDEN][i] += hidden ? mean : 0;
         sums[SHADOW_SLOPE][i] += hidden ? mean * slope : 0;
+    }
+}
+
+/* Adds the results of the rays to the pixels' sums: of those to source `around`, the environment,
+ * to the last of the sets. */
+static void add_shot(const shadow_shot *shot, int around, int sets, shadow_group *group) {
+    shadow_lanes weight;
+    for (int set = 0; set < sets; set++) {
+        for (int i = 0; i < SHADOW_LANES; i++)
+            weight[i] = sets == 1 || (shot->source[i] == around) == (set == sets - 1) ? 1 : 0;
+        add_results(shot, group->footprint, weight, group->sums[set]);
     }
 }
 
@@ -157,18 +187,17 @@ static void send_batch(const shadow_job *job, shadow_work *work) {
 static void add_rays(const shadow_job *job, const shadow_points *points, int number,
                      shadow_work *work) {
     const shadow_group *group = &work->groups[number];
-    shadow_sequence sequences[SHADOW_LANES];
+    sequence_lanes sequences;
     shadow_sources_weigh(job->sources, job->source_count, points, work->weights);
     if (sees_few_suns(job))
         favor_environment(job, work->weights);
-    for (int i = 0; i < SHADOW_LANES; i++)
-        sequences[i] = shadow_sequence_of(group->x[i], group->y[i], (uint32_t)job->rays, job->seed);
+    set_sequences(job, group, &sequences);
     for (int ray = 0; ray < job->rays; ray++) {
         shadow_lanes u[3];
         int chosen[SHADOW_LANES];
         if (work->batch.count == SHADOW_SHOTS)
             send_batch(job, work);
-        draw(sequences, (uint32_t)ray, u);
+        draw(&sequences, (uint32_t)ray, u);
         choose(job, work->weights, u[0], chosen);
         work->group_of[work->batch.count] = number;
         aim(job, points, work->weights, chosen, u, &work->batch.shots[work->batch.count++]);

@@ -17,12 +17,14 @@ static inline uint32_t shadow_hash(uint32_t a, uint32_t b) {
     return x ^ x >> 15;
 }
 
+/* Halves are swapped last, apart from bytes: both at once would be an instruction that vectors do
+ * not always have, and keep loops from being vectorized. */
 static inline uint32_t shadow_reverse(uint32_t x) {
-    x = x >> 16 | x << 16;
     x = (x & 0xff00ff00u) >> 8 | (x & 0x00ff00ffu) << 8;
     x = (x & 0xf0f0f0f0u) >> 4 | (x & 0x0f0f0f0fu) << 4;
     x = (x & 0xccccccccu) >> 2 | (x & 0x33333333u) << 2;
-    return (x & 0xaaaaaaaau) >> 1 | (x & 0x55555555u) << 1;
+    x = (x & 0xaaaaaaaau) >> 1 | (x & 0x55555555u) << 1;
+    return x >> 16 | x << 16;
 }
 
 /* Flips every bit or not by a hash of the bits above it. */
@@ -37,7 +39,7 @@ static inline uint32_t shadow_scramble(uint32_t x, uint32_t seed) {
 }
 
 static inline float shadow_unit(uint32_t x) {
-    return (float)(x >> 8) * 0x1p-24f;
+    return (float)(int32_t)(x >> 8) * 0x1p-24f;
 }
 
 /* Returns the second dimension of Sobol's sequence: Pascal's triangle modulo 2, a product of sparse

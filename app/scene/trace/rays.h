@@ -40,9 +40,25 @@ static inline trace_hit trace_miss(void) {
  * surface. */
 double trace_lift(const scene *scene);
 
+static inline float trace_largest(lmp_vec3 v) {
+    const float x = fabsf(v.x), y = fabsf(v.y), z = fabsf(v.z), most = x > y ? x : y;
+    return most > z ? most : z;
+}
+
 /* Returns the same for a point of a triangle, in the scene of that lift: in proportion to the
  * coordinates that are rounded, its own, its corners' (unless these are NULL) and hardly the
- * scene's, so that a small model on wide ground or under a distant sky casts its shadow. */
-float trace_lift_at(float lift, lmp_vec3 point, const lmp_vec3 corners[3]);
+ * scene's, so that a small model on wide ground or under a distant sky casts its shadow.
+ * Where a ray meets a triangle is a mean of its corners' distances, which rounds off it by up to
+ * about 1.5e-7 of their coordinates. Normals and what is modeled ask for more, but only in
+ * proportion to how far the point is from the origin. */
+static inline float trace_lift_at(float lift, lmp_vec3 point, const lmp_vec3 corners[3]) {
+    const float own = 1e-4f * trace_largest(point);
+    float least = own > lift / 100 ? own : lift / 100;
+    for (int i = 0; corners && i < 3; i++) {
+        const float far = 1e-6f * trace_largest(corners[i]);
+        least = far > least ? far : least;
+    }
+    return least < lift ? least : lift;
+}
 
 #endif
