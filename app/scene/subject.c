@@ -9,7 +9,10 @@
 #include <string.h>
 
 #define SUBJECT_PART  0.02f /* fraction of a scene that a model in wide surroundings has at most */
+#define PLANE_PART    0.1f  /* the same where these are a plane */
+#define PLANE_HEIGHT  5e-3f /* fraction of the size of a plane that is its height at most */
 #define GROUND_HEIGHT 0.1f  /* fraction of the size of ground that is its height at most */
+#define LEVEL_NORMAL  0.7f  /* least vertical part of the normal of ground: 45 degrees */
 #define MARGIN        1e-4f /* fraction of a subject's size that rounding may put points out of it */
 #define MODEL_LEAST   12    /* triangles of a model, as a box has: fewer are stray */
 
@@ -146,6 +149,48 @@ static bool find_in_meshes(const scene *s, float most, box *sum) {
     return ok && triangles >= MODEL_LEAST;
 }
 
+/* --- what is around --------------------------------------------------------------------------- */
+
+static bool overlaps(const box *a, const box *b) {
+    return a->low.x <= b->high.x && a->low.y <= b->high.y && a->low.z <= b->high.z &&
+           b->low.x <= a->high.x && b->low.y <= a->high.y && b->low.z <= a->high.z;
+}
+
+/* Whether a triangle lies like ground. */
+static bool lies_flat(const float corners[3][3]) {
+    const lmp_vec3 a = vec_load(corners[0]), b = vec_load(corners[1]), c = vec_load(corners[2]);
+    const lmp_vec3 normal = vec_cross(vec_sub(b, a), vec_sub(c, a));
+    return fabsf(normal.y) >= LEVEL_NORMAL * vec_length(normal);
+}
+
+/* Whether of an instance only ground comes near: a lamp on a mast is not a model. */
+static bool keeps_away(const scene *s, size_t instance, const box *near) {
+    for (uint32_t n = 0; n < scene_instance_triangles(s, instance); n++) {
+        float corners[3][3];
+        box b = nothing;
+        scene_triangle_positions(s, instance, n, corners);
+        for (int i = 0; i < 3; i++)
+            add_point(corners[i], &b);
+        if (overlaps(&b, near) && !lies_flat((const float(*)[3])corners))
+            return false;
+    }
+    return true;
+}
+
+/* Whether nothing but ground comes nearer to what was found than half of its size, of the instances
+ * that are larger than `most`. */
+static bool stands_alone(const scene *s, float most, const box *found) {
+    const float by = 0.5f * size_of(found);
+    const box near = { vec_sub(found->low, vec(by, by, by)),
+                       vec_add(found->high, vec(by, by, by)) };
+    for (size_t i = 0; i < s->instance_count; i++) {
+        const box b = box_of(s, i);
+        if (size_of(&b) > most && overlaps(&b, &near) && !keeps_away(s, i, &near))
+            return false;
+    }
+    return true;
+}
+
 /* --- the decision ----------------------------------------------------------------------------- */
 
 static bool is_together(const box *b, float most) {
@@ -159,15 +204,31 @@ static scene_subject part_of_scene(const box *b) {
     return (scene_subject) { vec_sub(b->low, margin), vec_add(b->high, margin), true };
 }
 
+/* Finds what is small and together, be it a detail of what is large. */
+static bool find_small(const scene *s, float most, box *found) {
+    *found = nothing;
+    return add_small(s, most, found) && is_together(found, most);
+}
+
+/* Whether every instance that is larger is a plane. */
+static bool is_on_planes(const scene *s, float most) {
+    for (size_t i = 0; i < s->instance_count; i++) {
+        const box b = box_of(s, i);
+        if (size_of(&b) > most && !is_level(&b, PLANE_HEIGHT))
+            return false;
+    }
+    return true;
+}
+
 scene_subject scene_subject_find(const scene *s) {
     const box whole = { vec_load(s->minimum), vec_load(s->maximum) };
-    const float most = SUBJECT_PART * size_of(&whole);
-    box found = nothing;
-    if (add_small(s, most, &found) &&
-        (is_together(&found, most) ||
-         /* the first is implied, and spares most models the search */
-         (is_level(&whole, GROUND_HEIGHT + SUBJECT_PART) && find_in_meshes(s, most, &found) &&
-          is_together(&found, most))))
+    const float size = size_of(&whole), most = SUBJECT_PART * size, wide = PLANE_PART * size;
+    box found;
+    if ((find_small(s, most, &found) && stands_alone(s, most, &found)) ||
+        (find_small(s, wide, &found) && is_on_planes(s, wide)) ||
+        /* the first is implied, and spares most models the search */
+        (is_level(&whole, GROUND_HEIGHT + SUBJECT_PART) && find_in_meshes(s, most, &found) &&
+         is_together(&found, most)))
         return part_of_scene(&found);
     return (scene_subject) { whole.low, whole.high, false };
 }

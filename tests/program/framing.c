@@ -491,14 +491,19 @@ static scene scene_of_two(shape *s, uint32_t first, pair *p) {
     return world;
 }
 
-/* On ground that reaches to the horizon, or under a dome, the model is framed, and the dome keeps
- * no light of the studio out; on ground a few times its size all is. */
+/* On ground that reaches to the horizon, on a plane ten times its size, or under a dome, the model
+ * is framed, and the dome keeps no light of the studio out; on ground a few times its size, or on
+ * a board, all is. */
 static void a_model_is_framed_in_wide_surroundings(void **state) {
     (void)state;
     static const struct {
-        float size;
+        float size, thick;
         bool dome, model;
-    } cases[] = { { 1000, false, true }, { 8, false, false }, { 1000, true, true } };
+    } cases[] = { { 1000, 0.05f, false, true },
+                  { 8, 0.05f, false, false },
+                  { 12, 0.05f, false, true },
+                  { 12, 0.5f, false, false },
+                  { 1000, 0, true, true } };
     shape *s = malloc(sizeof *s);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const float r = cases[i].size;
@@ -510,7 +515,7 @@ static void a_model_is_framed_in_wide_surroundings(void **state) {
             REVOLVE(s, here, 0, 64, { 0, r }, { 0.7f * r, 0.7f * r }, { r, 0 },
                     { 0.7f * r, -0.7f * r }, { 0, -r });
         else
-            shape_box(s, vec(-r, -0.1f, -r), vec(r, -0.05f, r), false, 0);
+            shape_box(s, vec(-r, -0.05f - cases[i].thick, -r), vec(r, -0.05f, r), false, 0);
         scene world = scene_of_two(s, first, &p);
         scene_frame frame = { .wanted = SCENE_FRAMING_AUTO };
         world.frame = &frame;
@@ -524,6 +529,22 @@ static void a_model_is_framed_in_wide_surroundings(void **state) {
             assert_true(vec_length(vec_sub(target, vec_scale(vec_add(low, high), 0.5f))) < size);
         assert_int_equal(environment_suits_shadows(true, &world), !cases[i].dome);
     }
+    free(s);
+}
+
+/* A detail of a model is none: a lamp on a mast, of as little size as a crate on wide ground, does
+ * not keep the mast out of the image. */
+static void a_detail_of_a_model_is_not_framed(void **state) {
+    (void)state;
+    shape *s = malloc(sizeof *s);
+    pair p;
+    shape_clear(s);
+    block(s, 0, 100, 0, 1, 1, 1);
+    const uint32_t first = s->count;
+    block(s, 0, 0, 0, 0.9f, 100, 0.9f);
+    const scene world = scene_of_two(s, first, &p);
+    const scene_camera camera = scene_default_camera(&world, 1.5f);
+    assert_true(vec_length(vec_sub(vec_load(camera.eye), vec_load(camera.target))) > 50);
     free(s);
 }
 
@@ -581,6 +602,7 @@ int main(void) {
         cmocka_unit_test(the_sky_reaches_what_is_seen_from_outside),
         cmocka_unit_test(the_framing_that_is_chosen_is_taken),
         cmocka_unit_test(a_model_is_framed_in_wide_surroundings),
+        cmocka_unit_test(a_detail_of_a_model_is_not_framed),
         cmocka_unit_test(a_model_is_framed_that_is_one_mesh_with_its_ground),
         cmocka_unit_test(random_lights_are_where_the_camera_of_a_large_scene_looks),
     };
