@@ -119,7 +119,7 @@ environment_options environment_choose(const environment_options *options, const
         base_note(world->name,
                   "%s, lit by the built-in studio (--environment, --lights and --random-lights "
                   "choose others)",
-                  world->light_count > 0 ? "what glows in it lights little of what is seen"
+                  world->light_count > 0 ? "what glows in it lights it too little"
                                          : "no lights in it");
     } else {
         chosen.name = "none";

@@ -10,6 +10,7 @@
 enum { PAIRS_MAX = 1 << 19 }; /* of triangles and lights that are evaluated */
 #define LIT_PART  0.4f /* of the area facing the camera: with less lit, lights do not suffice */
 #define LIT_STOPS 64   /* times darker than the brightest twentieth counts as black */
+#define FAINT     1.0f /* emission, as white paper in the studio: glTF's without a strength */
 
 /* A triangle that faces the camera: its area, and the irradiance at its center. */
 typedef struct facing {
@@ -27,6 +28,20 @@ static bool glows_alone(const scene *s) {
         if (!s->lights[i].hidden || !(scene_light_extent(&s->lights[i].emitter) > 0))
             return false;
     return s->light_count > 0;
+}
+
+/* Whether no mesh glows brighter than paper in a studio: such a glow is made to be seen, on eyes
+ * and screens, in the light of others. */
+static bool glows_faintly(const scene *s) {
+    for (size_t i = 0; i < s->light_count; i++) {
+        const uint32_t glow = s->lights[i].glow;
+        if (glow == 0)
+            return false;
+        const float *emission = s->materials[scene_instance_material(s, glow - 1)].emission;
+        if (!(fmaxf(emission[0], fmaxf(emission[1], emission[2])) <= FAINT))
+            return false;
+    }
+    return true;
 }
 
 /* Whether all of an instance glows: where there is an emission map, mostly small spots do. */
@@ -89,6 +104,8 @@ bool environment_lights_suffice(const scene *s) {
     size_t triangles = 0;
     if (!glows_alone(s))
         return s->light_count > 0;
+    if (glows_faintly(s) && !scene_is_inside(s))
+        return false; /* a room may be made to be lit by it */
     for (size_t i = 0; i < s->instance_count; i++)
         triangles += scene_instance_triangles(s, i);
     const size_t most = 1 + PAIRS_MAX / s->light_count, step = 1 + triangles / most;

@@ -208,6 +208,21 @@ static void the_studio_shines_where_what_glows_lights_little(void **state) {
     assert_string_equal(environment_choose(&none, &over).name, "none");
     const scene under = glowing_scene(-1, 1);
     assert_string_equal(environment_choose(&none, &under).name, "studio");
+    for (int strength = 1; strength <= 2; strength++) { /* emission that is paper's, and brighter */
+        const scene faint = glowing_scene(1, 1);
+        scene_instance both[2] = { faint.instances[0], scene_instance_identity(1) };
+        scene_mesh meshes[2] = { faint.meshes[0], { .material = 1 } };
+        scene_material materials[2] = { faint.materials[0],
+                                        { .emission = { 1, 0.5f, (float)strength } } };
+        scene two = faint;
+        two.instances = both;
+        two.meshes = meshes;
+        two.materials = materials;
+        two.instance_count = two.mesh_count = two.material_count = 2;
+        two.lights[0].glow = 2;
+        assert_string_equal(environment_choose(&none, &two).name, strength > 1 ? "none" : "studio");
+        two.lights[0].glow = 0;
+    }
     const scene lamp = glowing_scene(-1, 0); /* a light that is not a mesh */
     assert_string_equal(environment_choose(&none, &lamp).name, "none");
     /* The scene has the exposure of the studio alone, however that is chosen, but not beside a
