@@ -79,6 +79,8 @@ static void triangles_without_an_area_are_no_scene(void **state) {
     (void)state;
     char path[512];
     folder_write_text("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\nf 1 1 1\n");
+    folder_write_text("cloud.obj", "v 0 0 0\nv 1 0 2\np 1 2\n");
+    assert_refused("cloud.obj", "has no triangles (left out: points and lines (1 element))");
     folder_write_text("line.obj", "v 0 0 0\nv 1 0 2\nv 3 0 6\nf 1 2 3\n");
     folder_write_text("small.obj", "v 0 0 0\nv 1e-30 0 0\nv 0 1e-30 0\nf 1 2 3\n");
     folder_write_text("beside.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 1\nf 1 2 3\n");

@@ -178,7 +178,8 @@ static void what_is_no_ply_is_refused(void **state) {
           "it has a face with a vertex that does not exist" },
         { ASCII "element vertex 4\n" POSITIONS FACES("1") "end_header\n" QUAD "200 0 1 2\n",
           "it has a list that is longer than the file" },
-        { ASCII "element vertex 4\n" POSITIONS "end_header\n" QUAD, "has no triangles" },
+        { ASCII "element vertex 4\n" POSITIONS "end_header\n" QUAD,
+          "has no triangles, only points" },
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         scene s;

@@ -104,6 +104,16 @@ static bool check_instances(const import_job *job, const scene_builder *builder,
     return true;
 }
 
+/* Names the first thing that was left out, which tells what the file has instead. */
+static bool fail_without_triangles(const import_job *job, const scene_builder *builder,
+                                   base_error *error) {
+    char left_out[256];
+    if (builder_count(builder, BLOB_UNSUPPORTED) == 0)
+        return base_fail(error, job->path, "has no triangles");
+    scene_unsupported_text(builder_items(builder, BLOB_UNSUPPORTED), left_out, sizeof left_out);
+    return base_fail(error, job->path, "has no triangles (left out: %s)", left_out);
+}
+
 /* Rejects what a valid file never contains, so that the parent's validation finds damage alone. */
 static bool check_made(const import_job *job, const scene_builder *builder, base_error *error) {
     const scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
@@ -130,7 +140,7 @@ static bool check_made(const import_job *job, const scene_builder *builder, base
         return base_fail(error, job->path, "has %zu lights (at most %d)",
                          builder_count(builder, BLOB_LIGHTS), SCENE_LIGHTS_MAX);
     if (builder_count(builder, BLOB_INDICES) == 0)
-        return base_fail(error, job->path, "has no triangles");
+        return fail_without_triangles(job, builder, error);
     if (!has_area(builder))
         return base_fail(error, job->path, "has no triangles but those without an area");
     return true;

@@ -339,7 +339,8 @@ static bool add_all(ply_reader *r, source_set *sources) {
     if (!read_elements(r))
         return false;
     if (r->draft.corner_count == 0)
-        return base_fail(r->error, r->draft.subject, "has no triangles");
+        return base_fail(r->error, r->draft.subject, "has no triangles%s",
+                         r->draft.vertex_count > 0 ? ", only points" : "");
     if ((has_face_coordinates(&r->header) && !place_coordinates(r)) ||
         !mesh_add(&r->draft, r->builder, r->error) || !add_material(r, sources))
         return false;
