@@ -53,6 +53,20 @@ static const cli_option *find_option(const cli_option *options, char *word, char
     return NULL;
 }
 
+/* Returns the option that other programs call by this name. */
+static const char *find_synonym(const char *name, const char *const *names) {
+    static const char *const synonyms[][2] = {
+        { "width", "size" },          { "height", "size" },    { "resolution", "size" },
+        { "camera-position", "eye" }, { "look-at", "target" }, { "hdri", "environment" },
+        { "spp", "samples" },         { "samples", "spp" },    { "gpu", "device" },
+    };
+    for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
+        for (size_t k = 0; names[k] && strcmp(name, synonyms[i][0]) == 0; k++)
+            if (strcmp(names[k], synonyms[i][1]) == 0)
+                return names[k];
+    return NULL;
+}
+
 static int unknown_option(const cli_command *command, const cli_option *options, const char *word) {
     const char *names[OPTIONS_MAX + 1] = { NULL };
     cli_option rows[OPTIONS_MAX];
@@ -63,7 +77,8 @@ static int unknown_option(const cli_command *command, const cli_option *options,
     char name[64] = "";
     if (word[1] == '-')
         snprintf(name, sizeof name, "%.*s", length - 2, word + 2);
-    const char *const nearest = choice_nearest(name, names);
+    const char *const synonym = find_synonym(name, names);
+    const char *const nearest = synonym ? synonym : choice_nearest(name, names);
     if (nearest && strcmp(nearest, name) == 0) /* --help=FORM */
         return cli_usage(command, "--%s takes no value", name);
     if (nearest)

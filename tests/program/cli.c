@@ -218,6 +218,8 @@ static void unknown_options_name_the_nearest(void **state) {
     (void)state;
     assert_non_null(strstr(PARSE("--band", "3").complaint, "did you mean --bands?"));
     assert_non_null(strstr(PARSE("--szie=3x3").complaint, "--szie (did you mean --size?)"));
+    assert_non_null(strstr(PARSE("--width", "3").complaint, "--width (did you mean --size?)"));
+    assert_null(strstr(PARSE("--hdri", "a").complaint, "did you mean")); /* has no environment */
     assert_non_null(strstr(PARSE("--hlep").complaint, "did you mean --help?"));
     assert_null(strstr(PARSE("--xylophone").complaint, "did you mean"));
     assert_non_null(strstr(PARSE("-x").complaint, "unknown option -x"));
