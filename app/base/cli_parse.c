@@ -58,7 +58,7 @@ static const char *find_synonym(const char *name, const char *const *names) {
     static const char *const synonyms[][2] = {
         { "width", "size" },          { "height", "size" },    { "resolution", "size" },
         { "camera-position", "eye" }, { "look-at", "target" }, { "hdri", "environment" },
-        { "spp", "samples" },         { "samples", "spp" },    { "gpu", "device" },
+        { "spp", "samples" },         { "gpu", "device" },
     };
     for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
         for (size_t k = 0; names[k] && strcmp(name, synonyms[i][0]) == 0; k++)

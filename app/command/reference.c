@@ -225,8 +225,8 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "spp", 0, CLI_INT, &a.samples, "N", "light samples per pixel; with --error the most", 1,
           REFERENCE_SAMPLES_MAX, NULL, NULL },
         { "samples", 0, CLI_INT, &a.rays, "N",
-          "camera rays per pixel, which share its light samples; without it 8, for a .exr the one "
-          "through its center",
+          "camera rays per pixel, which share its light samples; without it 8, or one through the "
+          "center for a .exr",
           1, RAYS_MAX, NULL, &a.rays_given },
         { "error", 0, CLI_FLOAT, &a.error, "E",
           "stop a pixel when its standard error is below E times its value; 0 means never", 0, 1,
@@ -247,7 +247,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "windowing filter of lobes truncated by --bands", 0, 0, method_window_names(), NULL },
         IMAGE_DISPLAY_OPTION_ROWS(a.exposure, a.exposure_given, a.stops, a.tone),
         { "threads", 0, CLI_INT, &a.settings.threads, "N",
-          "threads to render by; 0 means all cores; the image is the same", 0, 1024, NULL, NULL },
+          "threads to render with; 0 means all cores; the image is the same", 0, 1024, NULL, NULL },
         SCENE_LIGHTS_OPTION_ROWS(a.lights),
         ENVIRONMENT_OPTION_ROWS(a.environment),
         SCENE_LOAD_OPTION_ROWS(a.load),

@@ -393,7 +393,8 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "background", 0, CLI_VEC3, o.background, "R,G,B",
           "radiance of the background, where no surface is", 0, 1e30, NULL, &o.background_given },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
-          "an image sequence while the lights move: the first N frames, or A to B; %04d in FILE "
+          "render a sequence of images while the lights move: the first N frames, or A to B; %04d "
+          "in FILE "
           "stands for the number, which otherwise follows the name: out_0000.png",
           0, FRAME_MAX, NULL, &o.frames_given },
         { "shard", 0, CLI_PART, o.shard, "I/N",
@@ -401,8 +402,8 @@ static int run(const cli_command *command, int argc, char **argv) {
           &o.shard_given },
         ANIMATION_OPTION_ROWS(o.animate, o.fps),
         { "samples", 0, CLI_INT, &o.samples, "N",
-          "samples per pixel; without it 8, for a .exr the one in its center, as reference has it",
-          1, SAMPLES_MAX, NULL, &o.samples_given },
+          "samples per pixel; without it 8, or one in the center for a .exr, as in reference", 1,
+          SAMPLES_MAX, NULL, &o.samples_given },
         SHADE_FIELD_OPTION_ROWS(o.field),
         SHADOW_OPTION_ROWS(o.shadow),
         BOUNCES_OPTION_ROW(o.bounces),

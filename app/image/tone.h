@@ -46,8 +46,10 @@ const char *image_tone_help(void);
 
 /* The option rows for how radiance is displayed. */
 #define IMAGE_DISPLAY_OPTION_ROWS(exposure, given, stops, tone)                                    \
-    { "exposure", 0,    CLI_FLOAT, &(exposure), "FACTOR", "of radiance; without it, automatic",    \
-      1e-12,      1e12, NULL,      &(given) },                                                     \
+    { "exposure",  0,        CLI_FLOAT,                                                            \
+      &(exposure), "FACTOR", "multiplies radiance; automatic without it",                          \
+      1e-12,       1e12,     NULL,                                                                 \
+      &(given) },                                                                                  \
         { "ev", 0,  CLI_FLOAT, &(stops), "STOPS", "brighter or darker by so many stops",           \
           -32,  32, NULL,      NULL },                                                             \
     {                                                                                              \

@@ -40,7 +40,7 @@ void animation_move_all(const animation *path, const scene *scene, double second
       .kind = CLI_TEXT,                                                                            \
       .target = &(path),                                                                           \
       .argument = ANIMATION_ARGUMENT,                                                              \
-      .help = "how they move: " ANIMATION_NAMES                                                    \
+      .help = "how the lights of --frames move: " ANIMATION_NAMES                                  \
               " (without it, scene if the file moves its lights, else orbit)" },                   \
     {                                                                                              \
         .name = "fps", .kind = CLI_FLOAT, .target = &(rate), .argument = "RATE",                   \

@@ -283,8 +283,8 @@ void scene_free(scene *scene);
           .kind = CLI_CHOICE,                                                                      \
           .target = &(variable).leaves,                                                            \
           .argument = "HOW",                                                                       \
-          .help = "what green, masked, double-sided surfaces are of which the file says nothing "  \
-                  "else: translucent, as leaves, or opaque",                                       \
+          .help = "how green, masked, double-sided surfaces are drawn if the file does not say: "  \
+                  "translucent, as leaves are, or opaque",                                         \
           .choices = scene_leaves_names },                                                         \
     {                                                                                              \
         .name = "strict", .kind = CLI_FLAG, .target = &(variable).strict,                          \
@@ -420,7 +420,7 @@ typedef struct scene_camera_options {
       .kind = CLI_CHOICE,                                                                          \
       .target = &(load).framing,                                                                   \
       .argument = "FROM",                                                                          \
-      .help = "where the camera stands by itself: outside, inside, or auto: where the file's "     \
+      .help = "where the automatic camera stands: outside, inside, or auto: where the file's "     \
               "camera is, else inside a room, and outside if in doubt",                            \
       .choices = scene_framing_names },                                                            \
         { .name = "camera",                                                                        \

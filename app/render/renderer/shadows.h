@@ -35,16 +35,16 @@ static inline bool shadow_wanted(const shadow_options *options, const environmen
         { .name = "no-shadow-filter",                                                              \
           .kind = CLI_FLAG,                                                                        \
           .target = &(variable).settings.raw,                                                      \
-          .help = "leave the noise of shadows, whose mean over many samples is exact" },           \
+          .help = "leave shadows noisy; the mean of many such samples is exact" },                 \
         { .name = "shadow-sparse",                                                                 \
           .kind = CLI_FLAG,                                                                        \
           .target = &(variable).settings.sparse,                                                   \
-          .help = "rays of shadows from one of two neighboring pixels" },                          \
+          .help = "cast shadow rays from every other pixel alone" },                               \
     {                                                                                              \
         .name = "shadow-rays", .kind = CLI_INT, .target = &(variable).settings.rays,               \
         .argument = "N",                                                                           \
-        .help = "rays of shadows for each sample that sends them: the first of a pixel, and "      \
-                "every third one after it; without it 2, and 8 where an environment shines",       \
+        .help = "shadow rays of each sample that casts any, which are the first of a pixel and "   \
+                "every third one after it; without it 2, or 8 where an environment shines",        \
         .minimum = 1, .maximum = SHADOW_RAYS_MAX, .given = &(variable).rays_given                  \
     }
 
