@@ -16,17 +16,28 @@ const cli_command *command_find(const char *name) {
     return NULL;
 }
 
-int command_unknown(const char *name) {
+/* Says what an unknown first word may be meant as: a file, an option, or a command. */
+static void explain(const char *word, base_error *error) {
     const char *names[COMMANDS_MAX + 2] = { "help" };
     for (size_t i = 0; i < COMMANDS_MAX && command_table[i]; i++)
         names[i + 1] = command_table[i]->name;
-    const char *const nearest = choice_nearest(name, names);
-    base_error error;
-    if (nearest)
-        base_fail(&error, NULL, "unknown command %s (did you mean %s?); see lampion --help", name,
+    const bool is_option = word[0] == '-';
+    const char *const options[] = { "--help", "--version", NULL };
+    const char *const kind = is_option ? "option" : "command";
+    const char *const nearest = choice_nearest(word, is_option ? options : names);
+    if (!is_option && strpbrk(word, "./"))
+        base_fail(error, NULL, "%s is not a command: lampion render %s -o image.png draws a scene",
+                  word, word);
+    else if (nearest)
+        base_fail(error, NULL, "unknown %s %s (did you mean %s?); see lampion --help", kind, word,
                   nearest);
     else
-        base_fail(&error, NULL, "unknown command %s; see lampion --help", name);
+        base_fail(error, NULL, "unknown %s %s; see lampion --help", kind, word);
+}
+
+int command_unknown(const char *name) {
+    base_error error;
+    explain(name, &error);
     base_report(&error);
     return BASE_USAGE;
 }

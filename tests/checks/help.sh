@@ -35,6 +35,8 @@ hints() {
     line=$("$PROGRAM" "$@" 2>&1 </dev/null) && fail "$*: succeeds"
     printf '%s\n' "$line" | grep -qF "(did you mean $word?)" || fail "$*: $line"
 }
+hints --version --verson
+"$PROGRAM" box.glb 2>&1 | grep -qF "lampion render box.glb -o image.png" || fail "a scene without a command"
 out="-o $WORK/x.png"
 hints --bands render builtin:ball $out --bnads 3
 hints zonal render builtin:ball $out --method zonl
