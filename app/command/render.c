@@ -394,8 +394,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "radiance of the background, where no surface is", 0, 1e30, NULL, &o.background_given },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
           "render a sequence of images while the lights move: the first N frames, or A to B; %04d "
-          "in FILE "
-          "stands for the number, which otherwise follows the name: out_0000.png",
+          "in FILE stands for the number, which otherwise follows the name: out_0000.png",
           0, FRAME_MAX, NULL, &o.frames_given },
         { "shard", 0, CLI_PART, o.shard, "I/N",
           "render part I of N of --frames alone, to split them among machines", 1, FRAME_MAX, NULL,

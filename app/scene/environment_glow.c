@@ -37,8 +37,7 @@ static bool glows_faintly(const scene *s) {
         const uint32_t glow = s->lights[i].glow;
         if (glow == 0)
             return false;
-        const float *emission = s->materials[scene_instance_material(s, glow - 1)].emission;
-        if (!(fmaxf(emission[0], fmaxf(emission[1], emission[2])) <= FAINT))
+        if (!(rgb_brightest(s->materials[scene_instance_material(s, glow - 1)].emission) <= FAINT))
             return false;
     }
     return true;
