@@ -198,15 +198,6 @@ static void set_transmission(const render_tile *row, int x, int i, shadow_points
     p->translucent |= p->through[i] > 0;
 }
 
-float shadow_footprint(const shadow_view *view, const render_tile *row, int x) {
-    float d2 = 0;
-    for (int c = 0; c < 3; c++) {
-        const float d = row->position[c][x] - view->camera->eye[c];
-        d2 += d * d;
-    }
-    return view->pixel * (view->camera->height > 0 ? 1 : sqrtf(d2));
-}
-
 void shadow_points_set(const shadow_view *view, const render_tile *row, const trace_hit *hits,
                        const int *pixels, int count, shadow_points *p) {
     static const lmp_material unlit = { 0 }; /* without a surface there is no material */

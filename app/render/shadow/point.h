@@ -55,7 +55,14 @@ typedef struct shadow_view {
 } shadow_view;
 
 /* Returns the width of a tile's pixel on its surface. */
-float shadow_footprint(const shadow_view *view, const render_tile *tile, int pixel);
+static inline float shadow_footprint(const shadow_view *view, const render_tile *tile, int pixel) {
+    float d2 = 0;
+    for (int c = 0; c < 3; c++) {
+        const float d = tile->position[c][pixel] - view->camera->eye[c];
+        d2 += d * d;
+    }
+    return view->pixel * (view->camera->height > 0 ? 1 : sqrtf(d2));
+}
 
 /* Finds the points of `count` pixels of the tile, at most SHADOW_LANES, all of which see a surface;
  * missing lanes repeat the first pixel. `hits` are their triangles, or NULL to find these by rays

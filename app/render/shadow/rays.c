@@ -231,38 +231,50 @@ static bool borrows(const shadow_job *job, const render_tile *tile, const render
                           (i + before < pixels->width && alike(tile, at, at + before, footprint)));
 }
 
+/* Sets a row of a plane to the values of a tile's pixels, to 0 where they see no surface. */
+static void store_row(const render_tile *tile, int at, const float *values, int width,
+                      float *restrict plane) {
+    for (int i = 0; i < width; i++)
+        plane[i] = tile->kind[at + i] == RENDER_SURFACE ? values[at + i] : 0;
+}
+
 /* Initializes the planes of a tile's pixels. Pixels without a surface are 0, which gives them no
  * weight in the filter. */
 static void store_tile(const shadow_job *job, const render_tile *tile,
                        const render_rectangle *pixels, shadow_planes *planes) {
+    const int width = pixels->width;
     for (int j = 0; j < pixels->height; j++) {
         const size_t first = (size_t)(pixels->y + j) * (size_t)planes->width + (size_t)pixels->x;
+        const int at = j * width;
         for (int k = 0; k < planes->sets * SHADOW_VALUES; k++) {
             float *values = planes->values[k / SHADOW_VALUES][k % SHADOW_VALUES];
-            memset(values + first, 0, (size_t)pixels->width * sizeof *values);
+            memset(values + first, 0, (size_t)width * sizeof *values);
         }
-        for (int i = 0; i < pixels->width; i++) {
-            const size_t pixel = first + (size_t)i;
-            const int at = j * pixels->width + i;
-            const bool lit = tile->kind[at] == RENDER_SURFACE;
-            for (int c = 0; c < 3; c++) {
-                planes->position[c][pixel] = lit ? tile->position[c][at] : 0;
-                planes->normal[c][pixel] = lit ? tile->normal[c][at] : 0;
-            }
-            planes->footprint[pixel] = lit ? shadow_footprint(&job->view, tile, at) : 1;
+        for (int c = 0; c < 3; c++) {
+            store_row(tile, at, tile->position[c], width, planes->position[c] + first);
+            store_row(tile, at, tile->normal[c], width, planes->normal[c] + first);
         }
+        for (int i = 0; i < width; i++)
+            planes->footprint[first + (size_t)i] = tile->kind[at + i] == RENDER_SURFACE
+                                                       ? shadow_footprint(&job->view, tile, at + i)
+                                                       : 1;
     }
 }
 
+static void store_lanes(const size_t *pixels, int count, const shadow_lanes values, float *plane) {
+    for (int i = 0; i < count; i++)
+        plane[pixels[i]] = values[i];
+}
+
 static void store(const shadow_group *group, shadow_planes *planes) {
-    for (int i = 0; i < group->count; i++) {
-        const size_t pixel = (size_t)group->y[i] * (size_t)planes->width + group->x[i];
-        for (int c = 0; c < 3; c++)
-            planes->normal[c][pixel] = group->smooth.of[c][i];
-        for (int set = 0; set < planes->sets; set++)
-            for (int k = 0; k < SHADOW_VALUES; k++)
-                planes->values[set][k][pixel] = group->sums[set][k][i];
-    }
+    size_t pixels[SHADOW_LANES];
+    for (int i = 0; i < group->count; i++)
+        pixels[i] = (size_t)group->y[i] * (size_t)planes->width + group->x[i];
+    for (int c = 0; c < 3; c++)
+        store_lanes(pixels, group->count, group->smooth.of[c], planes->normal[c]);
+    for (int set = 0; set < planes->sets; set++)
+        for (int k = 0; k < SHADOW_VALUES; k++)
+            store_lanes(pixels, group->count, group->sums[set][k], planes->values[set][k]);
 }
 
 /* Collects the next pixels that send rays, from number `at` on, along a Morton curve so that they
