@@ -28,7 +28,7 @@ lmp_result bake(const bake_recipe *recipe, void **object);
 
 /* Adds to a key what determines an object: the library's version and the parameters asked for
  * (without padding between them). BAKE_EPOCH rises when the same parameters give other bytes. */
-#define BAKE_EPOCH 8
+#define BAKE_EPOCH 9
 void bake_add_settings(file_hash *key, const void *settings, size_t size);
 
 /* Returns the program's host for the library: all cores, and a progress bar with the text *what. */

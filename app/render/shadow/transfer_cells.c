@@ -4,6 +4,7 @@
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { FOUND_MAX = 32 };
 
@@ -12,53 +13,93 @@ enum { FOUND_MAX = 32 };
 #define BESIDE 400.0f
 
 static transfer_cell cell_of(const transfer_cells *c, lmp_vec3 point) {
-    return (transfer_cell) { (int32_t)floorf(point.x / c->size), (int32_t)floorf(point.y / c->size),
-                             (int32_t)floorf(point.z / c->size) };
+    return (transfer_cell) { .x = (int32_t)floorf(point.x / c->size),
+                             .y = (int32_t)floorf(point.y / c->size),
+                             .z = (int32_t)floorf(point.z / c->size) };
 }
 
-static uint32_t hash_of(const transfer_cells *c, transfer_cell at) {
-    const uint32_t hash =
-        (uint32_t)at.x * 0x9e3779b1u ^ (uint32_t)at.y * 0x85ebca6bu ^ (uint32_t)at.z * 0xc2b2ae35u;
-    return (hash ^ hash >> 15) & c->mask;
+static bool is_same(const transfer_cell *a, const transfer_cell *b) {
+    return a->x == b->x && a->y == b->y && a->z == b->z;
 }
 
-static bool is_same(transfer_cell a, transfer_cell b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
+/* Returns the place of a cell in the table, or the free one where it would be. */
+static transfer_cell *place_of(const transfer_cells *c, const transfer_cell *at) {
+    const uint32_t hash = (uint32_t)at->x * 0x9e3779b1u ^ (uint32_t)at->y * 0x85ebca6bu ^
+                          (uint32_t)at->z * 0xc2b2ae35u;
+    uint32_t i = (hash ^ hash >> 15) & c->mask;
+    while (c->table[i].end > 0 && !is_same(&c->table[i], at))
+        i = (i + 1) & c->mask;
+    return &c->table[i];
 }
 
-/* Sorts the surfels by their cells. */
-static bool sort_surfels(transfer_surfels *s, transfer_cells *c) {
+/* --- order ------------------------------------------------------------------------------------ */
+
+/* A surfel on the Morton curve through the cells. */
+typedef struct ordered_surfel {
+    uint64_t key;
+    uint32_t index;
+} ordered_surfel;
+
+/* Returns the lowest 21 bits of a coordinate, two zeros before each. */
+static uint64_t spread_bits(int32_t x) {
+    uint64_t spread = 0;
+    for (int bit = 0; bit < 21; bit++)
+        spread |= ((uint64_t)(uint32_t)x >> bit & 1) << 3 * bit;
+    return spread;
+}
+
+static int compare_keys(const void *a, const void *b) {
+    const ordered_surfel *x = a, *y = b;
+    if (x->key != y->key)
+        return x->key < y->key ? -1 : 1;
+    return x->index < y->index ? -1 : x->index > y->index;
+}
+
+/* Sorts surfels so that those near each other in space are near in memory. */
+static bool sort_surfels(transfer_surfels *s, const transfer_cells *c) {
+    ordered_surfel *order = malloc((s->count + 1) * sizeof *order);
     lmp_transfer_surfel *sorted = malloc((s->count + 1) * sizeof *sorted);
-    if (!sorted)
-        return false;
-    for (size_t i = 0; i < s->count; i++)
-        c->begin[hash_of(c, cell_of(c, s->at[i].position))]++;
-    for (uint32_t h = 1; h <= c->mask + 1; h++)
-        c->begin[h] += c->begin[h - 1];
-    /* begin[h] is where hash h ends, and falls to where it begins */
-    for (size_t i = s->count; i-- > 0;)
-        sorted[--c->begin[hash_of(c, cell_of(c, s->at[i].position))]] = s->at[i];
-    free(s->at);
-    s->at = sorted;
-    for (size_t i = 0; i < s->count; i++)
-        c->cell[i] = cell_of(c, s->at[i].position);
-    return true;
+    const bool ok = order && sorted;
+    for (size_t i = 0; i < s->count && ok; i++) {
+        const transfer_cell at = cell_of(c, s->at[i].position);
+        order[i] =
+            (ordered_surfel) { spread_bits(at.x) | spread_bits(at.y) << 1 | spread_bits(at.z) << 2,
+                               (uint32_t)i };
+    }
+    if (ok) {
+        qsort(order, s->count, sizeof *order, compare_keys);
+        for (size_t i = 0; i < s->count; i++)
+            sorted[i] = s->at[order[i].index];
+        memcpy(s->at, sorted, s->count * sizeof *sorted);
+    }
+    free(order);
+    free(sorted);
+    return ok;
 }
 
 bool transfer_cells_create(transfer_surfels *s, transfer_cells *c) {
     *c = (transfer_cells) { .surfels = s, .size = TRANSFER_NEAR * s->spacing, .mask = 1 };
-    while (c->mask < s->count)
+    while (c->mask < 2 * s->count)
         c->mask = 2 * c->mask + 1;
-    c->begin = calloc((size_t)c->mask + 2, sizeof *c->begin);
-    c->cell = malloc((s->count + 1) * sizeof *c->cell);
-    return c->begin && c->cell && sort_surfels(s, c);
+    c->table = calloc((size_t)c->mask + 1, sizeof *c->table);
+    if (!c->table || !sort_surfels(s, c))
+        return false;
+    for (uint32_t i = 0; i < s->count; i++) {
+        const transfer_cell at = cell_of(c, s->at[i].position);
+        transfer_cell *place = place_of(c, &at);
+        if (place->end == 0)
+            *place = (transfer_cell) { at.x, at.y, at.z, i, i };
+        place->end = i + 1;
+    }
+    return true;
 }
 
 void transfer_cells_free(transfer_cells *c) {
-    free(c->begin);
-    free(c->cell);
-    *c = (transfer_cells) { .begin = NULL };
+    free(c->table);
+    *c = (transfer_cells) { .table = NULL };
 }
+
+/* --- search ----------------------------------------------------------------------------------- */
 
 /* The nearest surfels so far. */
 typedef struct search {
@@ -70,8 +111,7 @@ typedef struct search {
     float distance2[FOUND_MAX];
 } search;
 
-/* Considers surfel i, if it belongs to the cell. */
-static void consider(search *s, transfer_cell from, uint32_t i) {
+static void consider(search *s, uint32_t i) {
     const transfer_cells *c = s->cells;
     const lmp_transfer_surfel *at = &c->surfels->at[i];
     const lmp_vec3 away = vec_sub(at->position, s->point);
@@ -79,7 +119,7 @@ static void consider(search *s, transfer_cell from, uint32_t i) {
     const float distance2 = straight2 + BESIDE * height * height;
     const bool full = s->count == s->capacity;
     if (!(straight2 <= c->size * c->size) || (full && !(distance2 < s->distance2[s->count - 1])) ||
-        vec_dot(at->normal, s->normal) < s->cosine || !is_same(from, c->cell[i]))
+        vec_dot(at->normal, s->normal) < s->cosine)
         return;
     size_t k = full ? s->count - 1 : s->count++;
     for (; k > 0 && distance2 < s->distance2[k - 1]; k--) {
@@ -90,11 +130,10 @@ static void consider(search *s, transfer_cell from, uint32_t i) {
     s->distance2[k] = distance2;
 }
 
-static void search_cell(search *s, transfer_cell at) {
-    const transfer_cells *c = s->cells;
-    const uint32_t hash = hash_of(c, at);
-    for (uint32_t i = c->begin[hash]; i < c->begin[hash + 1]; i++)
-        consider(s, at, i);
+static void search_cell(search *s, const transfer_cell *at) {
+    const transfer_cell *cell = place_of(s->cells, at);
+    for (uint32_t i = cell->begin; i < cell->end; i++)
+        consider(s, i);
 }
 
 /* Returns the distance beyond which no surfel counts any more, squared. */
@@ -130,8 +169,9 @@ static void search_around(search *s) {
     for (int i = 0; i < 27; i++) {
         const int8_t *to = cells_around[i];
         if (x2[to[0] + 1] + y2[to[1] + 1] + z2[to[2] + 1] <= reach2(s))
-            search_cell(s,
-                        (transfer_cell) { middle.x + to[0], middle.y + to[1], middle.z + to[2] });
+            search_cell(s, &(transfer_cell) { .x = middle.x + to[0],
+                                              .y = middle.y + to[1],
+                                              .z = middle.z + to[2] });
     }
 }
 

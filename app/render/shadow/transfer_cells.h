@@ -5,17 +5,18 @@
 
 #include "app/render/shadow/transfer_surfels.h"
 
-/* A cube of space, by its place in the grid. */
+/* A cube of space, by its place in the grid, and its surfels. */
 typedef struct transfer_cell {
     int32_t x, y, z;
+    uint32_t begin, end;
 } transfer_cell;
 
 typedef struct transfer_cells {
-    const transfer_surfels *surfels; /* in the order of their hashes */
-    transfer_cell *cell;             /* of each surfel */
+    const transfer_surfels *surfels; /* those of a cell one after another, near cells near */
     float size;                      /* the edge of a cell */
     uint32_t mask;                   /* of hashes */
-    uint32_t *begin;                 /* per hash the first of its surfels; the last is their end */
+    transfer_cell *table; /* a cell is at its hash, or in the first place after it that was free;
+                           * free places have no surfels */
 } transfer_cells;
 
 /* Puts surfels, which must outlive the cells, into an order for searches up to TRANSFER_NEAR
