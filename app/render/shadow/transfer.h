@@ -41,11 +41,11 @@ render_bounces transfer_bounces(transfer *transfer);
 lmp_rgb transfer_radiance(const transfer *transfer, lmp_vec3 point, lmp_vec3 direction);
 
 typedef struct transfer_statistics {
-    size_t surfels, bytes;      /* of the library's transfer */
-    float spacing;              /* of the surfels */
-    double create_milliseconds; /* surfels and their rays, once */
-    double light_milliseconds;  /* direct light of surfels, where lights have moved */
-    double bounce_milliseconds; /* all bounces */
+    size_t surfels, receivers, bytes; /* of the library's transfers */
+    float spacing;                    /* of the surfels */
+    double create_milliseconds;       /* surfels and their rays, once */
+    double light_milliseconds;        /* direct light of surfels, where lights have moved */
+    double bounce_milliseconds;       /* all bounces */
 } transfer_statistics;
 transfer_statistics transfer_describe(const transfer *transfer);
 

@@ -5,13 +5,21 @@
 
 #include "app/render/shadow/transfer_lists.h"
 
-typedef struct transfer_baked {
-    transfer_surfels surfels;
+/* Points of a scene's surfaces, and what their rays have found. Light bounces between the surfels;
+ * from them the receivers have it, which are the surfels of a transfer of their own, and the
+ * surfels its sky. */
+typedef struct transfer_layer {
+    transfer_surfels points;
     transfer_cells cells;
     lmp_transfer *transfer; /* NULL in a scene without surfaces */
+} transfer_layer;
+
+enum { TRANSFER_SURFELS, TRANSFER_RECEIVERS, TRANSFER_LAYERS };
+typedef struct transfer_baked {
+    transfer_layer layers[TRANSFER_LAYERS];
 } transfer_baked;
 
-/* Makes a scene's surfels and casts their rays, with a progress bar, or reads them from the cache,
+/* Makes a scene's points and casts their rays, with a progress bar, or reads them from the cache,
  * where they are kept by the scene's geometry and materials; `albedos` as for
  * transfer_surfels_make. Returns NULL if memory ran out. */
 transfer_baked *transfer_bake(const scene *world, const lmp_rgb *albedos, const trace_bvh *bvh);

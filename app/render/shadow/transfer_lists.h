@@ -19,14 +19,23 @@ typedef struct transfer_view {
 } transfer_view;
 
 /* The hits and links of lmp_transfer_desc. */
-enum { TRANSFER_RAYS = 256, TRANSFER_LINKS = 24 };
+enum { TRANSFER_LINKS = 24 };
 typedef struct transfer_lists {
     uint32_t *hits, *links;
 } transfer_lists;
 
+/* What rays are cast for. */
+typedef struct transfer_task {
+    const transfer_view *from; /* surfels or receivers, which are linked to each other */
+    const transfer_view *to;   /* surfels, which rays hit */
+    size_t rays;               /* from each */
+    size_t first;              /* the number among hits of the first surfel */
+    double begin, end;         /* of the progress */
+} transfer_task;
+
 /* Casts all rays, on all cores, and tells the host's progress. Returns false if memory ran out;
  * free the lists in any case. */
-bool transfer_lists_create(const transfer_view *view, const lmp_host *host, transfer_lists *lists);
+bool transfer_lists_create(const transfer_task *task, const lmp_host *host, transfer_lists *lists);
 void transfer_lists_free(transfer_lists *lists);
 
 /* Returns the nearest surfel that is seen from a point of a surface, one of about the same normal

@@ -21,14 +21,14 @@ static const float contrast = 0.2f;
 
 /* The pixels of a rectangle that are read. */
 typedef struct reading {
-    const transfer_view *view;
-    const lmp_transfer *transfer;
-    const render_tile *tile; /* holds them, one after another */
+    const transfer_baked *baked;
+    const transfer_view *views; /* of its layers */
+    const render_tile *tile;    /* holds them, one after another */
     int width, height;
     size_t count;
     uint32_t pixels[RENDER_TILE_PIXELS]; /* in the planes */
     uint16_t number[RENDER_TILE_PIXELS]; /* of each pixel of the rectangle, or UNLISTED */
-    bool known[RENDER_TILE_PIXELS];      /* read from surfels */
+    bool known[RENDER_TILE_PIXELS];      /* read from receivers */
     bool found[RENDER_TILE_PIXELS];      /* interpolated */
     lmp_rgb irradiance[RENDER_TILE_PIXELS];
 } reading;
@@ -64,15 +64,23 @@ static lmp_vec3 vector_at(float *const planes[3], size_t i) {
     return vec(planes[0][i], planes[1][i], planes[2][i]);
 }
 
-/* Returns the irradiance of a listed pixel, read from surfels. */
+/* Returns the irradiance of a point, from receivers, or from surfels where there is none. */
+static lmp_rgb read_point(const reading *r, lmp_vec3 point, lmp_vec3 normal) {
+    static const int order[] = { TRANSFER_RECEIVERS, TRANSFER_SURFELS };
+    for (int i = 0; i < TRANSFER_LAYERS; i++) {
+        const uint32_t nearest = transfer_nearest(&r->views[order[i]], point, normal);
+        if (nearest != LMP_TRANSFER_NONE)
+            return lmp_transfer_irradiance(r->baked->layers[order[i]].transfer, nearest, point,
+                                           normal);
+    }
+    return (lmp_rgb) { 0, 0, 0 };
+}
+
+/* Returns the irradiance of a listed pixel. */
 static lmp_rgb read_pixel(reading *r, size_t i) {
     if (!r->known[i]) {
-        const lmp_vec3 point = vector_at(r->tile->position, i),
-                       normal = vector_at(r->tile->normal, i);
-        const uint32_t nearest = transfer_nearest(r->view, point, normal);
-        r->irradiance[i] = nearest == LMP_TRANSFER_NONE
-                               ? (lmp_rgb) { 0, 0, 0 }
-                               : lmp_transfer_irradiance(r->transfer, nearest, point, normal);
+        r->irradiance[i] =
+            read_point(r, vector_at(r->tile->position, i), vector_at(r->tile->normal, i));
         r->known[i] = true;
     }
     return r->irradiance[i];
@@ -81,7 +89,7 @@ static lmp_rgb read_pixel(reading *r, size_t i) {
 /* Whether a point lies on the same smooth surface as listed pixel i, no further away than its
  * surfels. */
 static bool is_beside(const reading *r, size_t i, lmp_vec3 point, lmp_vec3 normal) {
-    const float spacing = r->view->cells->surfels->spacing;
+    const float spacing = r->views[TRANSFER_SURFELS].cells->surfels->spacing;
     const lmp_vec3 own = vector_at(r->tile->normal, i);
     const lmp_vec3 away = vec_sub(point, vector_at(r->tile->position, i));
     return vec_dot(away, away) <= spacing * spacing &&
@@ -249,9 +257,9 @@ static void reflect(const render_surfaces *s, const reading *r, lmp_rgb *reflect
     lmp_shade_environment_n(&settings, &surfaces, r->count, &even, lmp_rgb_array_of(reflected));
 }
 
-void transfer_read(const transfer_view *view, const lmp_transfer *transfer,
+void transfer_read(const transfer_baked *baked, const transfer_view *views,
                    const render_surfaces *s, const render_rectangle *pixels, render_tile *tile) {
-    reading r = { .view = view, .transfer = transfer, .tile = tile };
+    reading r = { .baked = baked, .views = views, .tile = tile };
     lmp_rgb reflected[RENDER_TILE_PIXELS];
     list_pixels(s, pixels, &r);
     if (r.count == 0)
