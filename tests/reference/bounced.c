@@ -187,6 +187,55 @@ static void between_pixels_that_are_read_light_is_linear(void **state) {
     close_room(&r);
 }
 
+/* Beside a low block on the floor, less than half as far from it as surfels are apart, what it
+ * hides of the light shows. */
+static void detail_is_finer_than_surfels(void **state) {
+    (void)state;
+    static const char block[] =
+        "usemtl wall\n"
+        "v 0 -1 -0.3\nv 0 -1 0.3\nv 0 -0.9 0.3\nv 0 -0.9 -0.3\n"
+        "v 0 -0.9 0.3\nv 0.5 -0.9 0.3\nv 0.5 -0.9 -0.3\nv 0 -0.9 -0.3\n"
+        "v 0.5 -1 0.3\nv 0.5 -1 -0.3\nv 0.5 -0.9 -0.3\nv 0.5 -0.9 0.3\n"
+        "v 0 -1 0.3\nv 0.5 -1 0.3\nv 0.5 -0.9 0.3\nv 0 -0.9 0.3\n"
+        "v 0.5 -1 -0.3\nv 0 -1 -0.3\nv 0 -0.9 -0.3\nv 0.5 -0.9 -0.3\n"
+        "f 25 26 27 28\nf 29 30 31 32\nf 33 34 35 36\nf 37 38 39 40\nf 41 42 43 44\n";
+    char obj[sizeof cube_obj + sizeof block];
+    room r;
+    scene_light lamp;
+    image lit, direct, exact, exact_direct, noise[2];
+    base_error error = { "" };
+    double sum = 0;
+    snprintf(obj, sizeof obj, "%s%s", cube_obj, block);
+    open_room(obj, "", 0.6, &r);
+    set_lamp(&r, 0, &lamp);
+    lamp.emitter.position = (lmp_vec3) { 0.6f, 0.2f, 0 };
+    r.settings.camera = (scene_camera) { .eye = { -0.0105f, 0, 0 },
+                                         .target = { -0.0105f, -1, 0 },
+                                         .up = { 0, 0, -1 },
+                                         .height = 0.02f };
+    r.settings.samples = 4096;
+    draw(&r, 8, true, &lit);
+    draw(&r, 0, true, &direct);
+    r.settings.bounces = 8;
+    assert_true(reference_render(&r.world, &r.settings, &exact, &noise[0], &error));
+    r.settings.bounces = 0;
+    assert_true(reference_render(&r.world, &r.settings, &exact_direct, &noise[1], &error));
+    for (int i = 0; i < 3 * PIXELS; i++) {
+        const double expected = (double)exact.rgb[i] - (double)exact_direct.rgb[i];
+        const double found = (double)lit.rgb[i] - (double)direct.rgb[i];
+        sum += pow(found / expected - 1, 2) / (3 * PIXELS);
+    }
+    print_message("relative squared error %.5f\n", sum);
+    CHECK_WITHIN(sum, 0.0024); /* surfels: 0.0029 */
+    image_free(&lit);
+    image_free(&direct);
+    image_free(&exact);
+    image_free(&exact_direct);
+    image_free(&noise[0]);
+    image_free(&noise[1]);
+    close_room(&r);
+}
+
 /* The walls are infinitely thin. */
 static void nothing_leaks_into_a_closed_room(void **state) {
     (void)state;
@@ -297,6 +346,7 @@ int main(void) {
         cmocka_unit_test(what_stands_on_a_wall_hides_it),
         cmocka_unit_test(the_power_of_a_lamp_is_kept),
         cmocka_unit_test(between_pixels_that_are_read_light_is_linear),
+        cmocka_unit_test(detail_is_finer_than_surfels),
         cmocka_unit_test(nothing_leaks_into_a_closed_room),
         cmocka_unit_test(probes_see_the_geometric_series),
         cmocka_unit_test(probes_see_the_floor_below_them),
