@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/shadow/transfer_bake.h"
 
+#include "app/render/shadow/transfer_receivers.h"
+
 #include "app/scene/bake.h"
 
 #include <stdlib.h>
@@ -61,20 +63,19 @@ static lmp_result create_transfer(int layer, transfer_baked *b, const uint32_t *
 
 static bool make_points(int layer, const bake_source *from, transfer_baked *b) {
     transfer_layer *l = &b->layers[layer];
-    const bool made =
-        layer == TRANSFER_SURFELS
-            ? transfer_surfels_make(from->world, from->albedos, &l->points)
-            : transfer_receivers_make(from->world, &b->layers[TRANSFER_SURFELS].points, &l->points);
-    if (!made)
+    if (layer == TRANSFER_RECEIVERS)
+        return transfer_receivers_make(from->world, from->bvh, &b->layers[TRANSFER_SURFELS].points,
+                                       &l->points);
+    if (!transfer_surfels_make(from->world, from->albedos, &l->points))
         return false;
     transfer_drop_buried(from->world, from->bvh, &l->points);
-    return transfer_cells_create(&l->points, &l->cells);
+    return true;
 }
 
 static lmp_result make_layer(int layer, const bake_source *from, const lmp_host *host,
                              baked_object *o) {
     transfer_layer *l = &o->baked.layers[layer], *surfels = &o->baked.layers[TRANSFER_SURFELS];
-    if (!make_points(layer, from, &o->baked))
+    if (!make_points(layer, from, &o->baked) || !transfer_cells_create(&l->points, &l->cells))
         return LMP_ERROR_MEMORY;
     const transfer_view own = { from->world, from->bvh, &l->cells },
                         hit = { from->world, from->bvh, &surfels->cells };
@@ -199,7 +200,8 @@ static file_hash key_of(const scene *s, const lmp_rgb *albedos) {
                             TRANSFER_SURFELS_MAX,
                             TRANSFER_SPACINGS,
                             TRANSFER_REACH,
-                            TRANSFER_FINER };
+                            TRANSFER_PART,
+                            TRANSFER_PART_LEAST };
     file_hash key = { 0, 0 };
     bake_add_settings(&key, sizes, sizeof sizes);
     file_hash_add(&key, s->vertices, s->vertex_count * sizeof *s->vertices);

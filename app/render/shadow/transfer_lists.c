@@ -57,13 +57,14 @@ static met meet(const scene *world, const trace_bvh *bvh, lmp_vec3 from, lmp_vec
     return found;
 }
 
-/* Whether a surfel is covered closely, or sees mostly the backs of surfaces. */
-static bool is_buried(const scene *world, const trace_bvh *bvh, const transfer_surfels *surfels,
-                      size_t index, float lift) {
+static lmp_vec3 start_of(const scene *world, const lmp_transfer_surfel *surfel) {
+    return vec_add(surfel->position, vec_scale(surfel->normal, (float)trace_lift(world)));
+}
+
+bool transfer_is_buried(const scene *world, const trace_bvh *bvh, const lmp_transfer_surfel *surfel,
+                        size_t index, float least) {
     enum { RAYS = 16 };
-    const lmp_transfer_surfel *surfel = &surfels->at[index];
-    const lmp_vec3 from = vec_add(surfel->position, vec_scale(surfel->normal, lift));
-    const float least = 2 * off_surface * surfels->spacing;
+    const lmp_vec3 from = start_of(world, surfel);
     int backs = 0;
     if (!(meet(world, bvh, from, surfel->normal).distance >= least))
         return true;
@@ -74,11 +75,21 @@ static bool is_buried(const scene *world, const trace_bvh *bvh, const transfer_s
     return backs > RAYS / 2;
 }
 
+float transfer_distance(const scene *world, const trace_bvh *bvh, const lmp_transfer_surfel *surfel,
+                        size_t index) {
+    enum { RAYS = 8 };
+    const lmp_vec3 from = start_of(world, surfel);
+    float inverse = 0;
+    for (size_t k = 0; k < RAYS; k++)
+        inverse += 1 / meet(world, bvh, from, direction_of(surfel, index, k)).distance;
+    return RAYS / inverse;
+}
+
 void transfer_drop_buried(const scene *world, const trace_bvh *bvh, transfer_surfels *surfels) {
-    const float lift = (float)trace_lift(world);
+    const float least = 2 * off_surface * surfels->spacing;
     size_t count = 0;
     for (size_t i = 0; i < surfels->count; i++)
-        if (!is_buried(world, bvh, surfels, i, lift))
+        if (!transfer_is_buried(world, bvh, &surfels->at[i], i, least))
             surfels->at[count++] = surfels->at[i];
     surfels->count = count;
 }

@@ -11,6 +11,17 @@
  * would find them nearest. */
 void transfer_drop_buried(const scene *world, const trace_bvh *bvh, transfer_surfels *surfels);
 
+/* Whether a surfel, number `index` of its own, is covered closely, by less than `least`, or sees
+ * mostly the backs of surfaces. */
+bool transfer_is_buried(const scene *world, const trace_bvh *bvh, const lmp_transfer_surfel *surfel,
+                        size_t index, float least);
+
+/* Returns the harmonic mean of the distances that a few rays from a surfel go: what lights it, and
+ * so how its light changes along its surface, is about so far away. INFINITY: none meets a thing.
+ */
+float transfer_distance(const scene *world, const trace_bvh *bvh, const lmp_transfer_surfel *surfel,
+                        size_t index);
+
 /* What the rays of a scene are cast by. */
 typedef struct transfer_view {
     const scene *scene;

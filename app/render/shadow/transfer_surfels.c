@@ -75,28 +75,11 @@ static double sided_area(const scene *world) {
     return area;
 }
 
-/* How points are spread over a scene. */
-typedef struct spread {
-    const scene *world;
-    const lmp_rgb *albedos; /* as for transfer_surfels_make */
-    bool receive;           /* whether they are receivers, which reflect nothing */
-    size_t capacity;
-} spread;
-
-static lmp_rgb color_at(const spread *how, uint32_t material, const scene_vertex corners[3],
-                        const float weights[3]) {
-    if (how->receive)
-        return (lmp_rgb) { 0, 0, 0 };
-    if (how->albedos && how->albedos[material].r >= 0)
-        return how->albedos[material];
-    return albedo_at(how->world, &how->world->materials[material], corners, weights);
-}
-
 /* Adds a surfel, on both sides if the material has two. Points of a triangle follow Roberts'
  * sequence R2, folded into it. */
-static void add_point(const spread *how, size_t instance, uint32_t triangle, lmp_vec3 normal,
-                      transfer_surfels *s) {
-    const scene *world = how->world;
+static void add_point(const scene *world, const lmp_rgb *albedos, size_t instance,
+                      uint32_t triangle, lmp_vec3 normal, transfer_surfels *s) {
+    const uint32_t material = scene_instance_material(world, instance);
     double xy[2];
     transfer_sequence((double)s->count, 0, xy);
     float u = (float)(xy[0] - floor(xy[0])), v = (float)(xy[1] - floor(xy[1]));
@@ -110,8 +93,9 @@ static void add_point(const spread *how, size_t instance, uint32_t triangle, lmp
     lmp_vec3 position = { 0, 0, 0 };
     for (int i = 0; i < 3; i++)
         position = vec_add(position, vec_scale(vec_load(corners[i].position), weights[i]));
-    const lmp_rgb albedo =
-        color_at(how, scene_instance_material(world, instance), corners, weights);
+    const lmp_rgb albedo = albedos && albedos[material].r >= 0
+                               ? albedos[material]
+                               : albedo_at(world, &world->materials[material], corners, weights);
     const lmp_transfer_surfel front = { position, normal, albedo, TRANSFER_REACH * s->spacing };
     s->at[s->count++] = front;
     if (is_double_sided(world, instance)) {
@@ -122,8 +106,7 @@ static void add_point(const spread *how, size_t instance, uint32_t triangle, lmp
 
 /* Walks over the triangles, and adds a point wherever the area so far passes a multiple of what a
  * surfel stands for. */
-static void add_points(const spread *how, transfer_surfels *s) {
-    const scene *world = how->world;
+static void add_points(const scene *world, const lmp_rgb *albedos, transfer_surfels *s) {
     const double each = (double)s->spacing * (double)s->spacing;
     double left = each / 2;
     for (size_t i = 0; i < world->instance_count; i++)
@@ -132,30 +115,18 @@ static void add_points(const spread *how, transfer_surfels *s) {
             lmp_vec3 normal;
             scene_triangle_positions(world, i, t, corners);
             left -= (double)transfer_face(corners, &normal);
-            for (; left < 0 && s->count + 1 < how->capacity; left += each)
-                add_point(how, i, t, normal, s);
+            for (; left < 0 && s->count + 1 < 2 * TRANSFER_SURFELS_MAX; left += each)
+                add_point(world, albedos, i, t, normal, s);
         }
 }
 
 bool transfer_surfels_make(const scene *world, const lmp_rgb *albedos, transfer_surfels *s) {
-    const spread how = { world, albedos, false, 2 * TRANSFER_SURFELS_MAX };
     const double area = sided_area(world);
     const lmp_vec3 extent = vec_sub(vec_load(world->maximum), vec_load(world->minimum));
-    *s = (transfer_surfels) { .at = malloc(how.capacity * sizeof *s->at) };
+    *s = (transfer_surfels) { .at = malloc(2 * TRANSFER_SURFELS_MAX * sizeof *s->at) };
     s->spacing =
         fmaxf(vec_length(extent) / TRANSFER_SPACINGS, (float)sqrt(area / TRANSFER_SURFELS_MAX));
     if (s->at && area > 0)
-        add_points(&how, s);
+        add_points(world, albedos, s);
     return s->at != NULL;
-}
-
-bool transfer_receivers_make(const scene *world, const transfer_surfels *surfels,
-                             transfer_surfels *r) {
-    const spread how = { world, NULL, true,
-                         2 * TRANSFER_FINER * TRANSFER_FINER * TRANSFER_SURFELS_MAX };
-    *r = (transfer_surfels) { .at = malloc(how.capacity * sizeof *r->at),
-                              .spacing = surfels->spacing / TRANSFER_FINER };
-    if (r->at && surfels->count > 0)
-        add_points(&how, r);
-    return r->at != NULL;
 }

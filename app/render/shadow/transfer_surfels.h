@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* transfer_surfels.h - samples of a scene's surfaces, spread evenly over their area: surfels, which
- * pass light on, and receivers, at which it is read. */
+/* transfer_surfels.h - samples of a scene's surfaces, spread evenly over their area. */
 #ifndef LAMPION_RENDER_SHADOW_TRANSFER_SURFELS_H
 #define LAMPION_RENDER_SHADOW_TRANSFER_SURFELS_H
 
@@ -25,14 +24,6 @@ typedef struct transfer_surfels {
 #define TRANSFER_SURFELS_MAX 40000
 #define TRANSFER_SPACINGS    60
 bool transfer_surfels_make(const scene *world, const lmp_rgb *albedos, transfer_surfels *surfels);
-
-/* Makes a scene's receivers, which are nearer to each other than the surfels: their light is found
- * once, after the last bounce, and nothing is lit by them, so they cost little and show details of
- * the light that surfels are too far apart for. Their albedo is 0. Otherwise as for
- * transfer_surfels_make. */
-#define TRANSFER_FINER 2 /* times */
-bool transfer_receivers_make(const scene *world, const transfer_surfels *surfels,
-                             transfer_surfels *receivers);
 
 /* Writes number k of Roberts' sequence R2, whose fractions fill the square evenly, shifted by
  * `shift` so that surfels do not share a pattern. */
