@@ -120,12 +120,12 @@ static json_t *shadows_to_json(const render_job *j) {
 
 static json_t *bounces_to_json(const render_job *j) {
     const transfer_statistics s = transfer_describe(j->bounces);
-    return json_pack("{s:i, s:I, s:o, s:I, s:o, s:o, s:o}", "bounces", j->options->bounces,
-                     "surfels", (json_int_t)s.surfels, "spacing", file_json_float(s.spacing),
-                     "bytes", (json_int_t)s.bytes, "create_milliseconds",
-                     file_json_real(s.create_milliseconds), "light_milliseconds",
-                     file_json_real(s.light_milliseconds), "bounce_milliseconds",
-                     file_json_real(s.bounce_milliseconds));
+    return json_pack("{s:i, s:I, s:I, s:o, s:I, s:o, s:o, s:o}", "bounces", j->options->bounces,
+                     "surfels", (json_int_t)s.surfels, "receivers", (json_int_t)s.receivers,
+                     "spacing", file_json_float(s.spacing), "bytes", (json_int_t)s.bytes,
+                     "create_milliseconds", file_json_real(s.create_milliseconds),
+                     "light_milliseconds", file_json_real(s.light_milliseconds),
+                     "bounce_milliseconds", file_json_real(s.bounce_milliseconds));
 }
 
 /* Measures the median shading time of frames with resting lights and a moving camera: the field
