@@ -14,7 +14,9 @@ enum { TRIES = 2 };
  * counts more, because what lies above another surface needs its own. */
 static const float apart = 0.8f, beside = 100;
 
-#define RECEIVERS_MAX 1000000 /* far more than fit beside the surfels of a scene */
+/* A bound of memory and time: where all surfaces are near each other, such as leaves, the last ones
+ * have none of their own and are read from surfels. */
+#define RECEIVERS_MAX 250000
 
 typedef struct spread {
     const scene *world;
@@ -75,10 +77,11 @@ static bool grow(spread *s) {
 
 /* Adds a receiver where it has room, unless it is buried. */
 static bool add(spread *s, const lmp_transfer_surfel *new) {
-    if (!has_room(s, new) || transfer_is_buried(s->world, s->bvh, new, s->tried, s->least / 10))
-        return true;
     const size_t count = s->receivers->count;
-    if (count == RECEIVERS_MAX || (count == s->capacity && !grow(s)))
+    if (count == RECEIVERS_MAX || !has_room(s, new) ||
+        transfer_is_buried(s->world, s->bvh, new, s->tried, s->least / 10))
+        return true;
+    if (count == s->capacity && !grow(s))
         return false;
     const uint32_t hash = hash_of(s, cell_of(s, new->position.x), cell_of(s, new->position.y),
                                   cell_of(s, new->position.z));
