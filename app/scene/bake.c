@@ -1,20 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/bake.h"
 #include "app/base/file_cache.h"
+#include "app/base/parallel.h"
 #include "app/base/progress.h"
 
 #include <stdio.h>
 
 typedef char entry_name[64];
-
-static void run_parallel(size_t count, void (*task)(size_t index, void *data), void *data,
-                         void *user) {
-    (void)user;
-    const long tasks = (long)count;
-#pragma omp parallel for schedule(dynamic)
-    for (long i = 0; i < tasks; i++)
-        task((size_t)i, data);
-}
 
 static void show_progress(double done, void *user) {
     const char *const *what = user;
@@ -22,7 +14,10 @@ static void show_progress(double done, void *user) {
 }
 
 lmp_host bake_host(const char **what) {
-    return (lmp_host) { .parallel = run_parallel, .progress = show_progress, .user = what };
+    lmp_host host = parallel_host();
+    host.progress = show_progress;
+    host.user = what;
+    return host;
 }
 
 void bake_add_settings(file_hash *key, const void *settings, size_t size) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/shadow/transfer.h"
 
+#include "app/base/parallel.h"
 #include "app/base/timing.h"
 #include "app/render/shadow/transfer_bake.h"
 #include "app/render/shadow/transfer_direct.h"
@@ -119,14 +120,14 @@ static void find_radiance(const transfer *t, lmp_rgb *radiance) {
 static bool iterate(const transfer *t, int layer, int iterations,
                     const lmp_transfer_lighting *lighting) {
     const lmp_transfer_settings settings = { .iterations = iterations };
+    const lmp_host host = parallel_host();
     lmp_transfer *iterated = t->baked->layers[layer].transfer;
     return iterations == 0 || !iterated ||
-           lmp_transfer_update(NULL, iterated, &settings, lighting) == LMP_OK;
+           lmp_transfer_update(&host, iterated, &settings, lighting) == LMP_OK;
 }
 
 /* Lets the light of surfels bounce, from darkness, so that a frame does not depend on those before
- * it. Receivers take part in the last bounce alone. One thread bounces: it takes milliseconds, and
- * threads would wait for each other after every iteration. */
+ * it. Receivers take part in the last bounce alone. */
 static bool bounce(const transfer *t) {
     const lmp_transfer_lighting by_lights = { .direct = t->direct },
                                 by_surfels = { .sky = t->radiance };

@@ -23,7 +23,7 @@ typedef struct baked_object {
 /* The rays from each point of a layer. Receivers are read together with those around them, which
  * share the noise of their rays. */
 static const size_t rays_of[TRANSFER_LAYERS] = {
-    [TRANSFER_SURFELS] = 256, [TRANSFER_RECEIVERS] = 128
+    [TRANSFER_SURFELS] = 256, [TRANSFER_RECEIVERS] = 64
 };
 
 void transfer_baked_destroy(transfer_baked *b) {

@@ -77,7 +77,7 @@ bool transfer_is_buried(const scene *world, const trace_bvh *bvh, const lmp_tran
 
 float transfer_distance(const scene *world, const trace_bvh *bvh, const lmp_transfer_surfel *surfel,
                         size_t index) {
-    enum { RAYS = 8 };
+    enum { RAYS = 4 };
     const lmp_vec3 from = start_of(world, surfel);
     float inverse = 0;
     for (size_t k = 0; k < RAYS; k++)
