@@ -169,11 +169,10 @@ static inline int are_near3(float *const a[3], float *const b[3], size_t i) {
 }
 
 /* Marks the pixels of a row, from `first` on, at which two samples see the same surface at nearby
- * positions; layers are not compared. The loop has no branches and writes only what nothing else
- * points to, so that it is vectorized. */
+ * positions; layers are not compared. The loop has no branches, and marks are no bytes, which
+ * might change a pointer, so that it is vectorized. */
 static TRACE_WIDE void mark_alike(const render_surfaces *a, const render_surfaces *b, size_t first,
-                                  int count, unsigned char *alike) {
-    int marks[RENDER_TILE];
+                                  int count, int *alike) {
     const render_nearness near = render_nearness_of(&b->camera);
     const float x = b->camera.eye[0], y = b->camera.eye[1], z = b->camera.eye[2];
 #pragma omp simd
@@ -188,10 +187,8 @@ static TRACE_WIDE void mark_alike(const render_surfaces *a, const render_surface
         same &= are_near3(a->base, b->base, i) & are_near3(a->emission, b->emission, i);
         same &= are_near(a->metallic, b->metallic, i) & are_near(a->roughness, b->roughness, i);
         same &= are_near(a->specular, b->specular, i) & are_near(a->ambient, b->ambient, i);
-        marks[k] = same;
+        alike[k] = same;
     }
-    for (int k = 0; k < count; k++)
-        alike[k] = (unsigned char)marks[k];
 }
 
 static bool have_alike_layers(const render_surfaces *a, const render_surfaces *b, size_t i) {
@@ -217,7 +214,7 @@ static void set_pixel(float *pixel, lmp_rgb color) {
 static size_t list_pixels(const render_surfaces *s, const shade_sample *before, int x, int y,
                           int width, uint32_t *list, float *rgba) {
     const size_t first = render_surfaces_at(s, x, y);
-    unsigned char alike[RENDER_TILE] = { 0 };
+    int alike[RENDER_TILE] = { 0 };
     size_t others[RENDER_TILE], count = 0;
     const size_t other_count = render_surfaces_others(s, first, width, others);
     if (before)

@@ -17,7 +17,10 @@ typedef struct shadow_shot {
 
 /* Enough for two rays of each pixel of a tile: the more rays are sorted, the fuller are the packets
  * that each light gets. */
-enum { SHADOW_SHOTS = 128, SHADOW_SHOT_RAYS = SHADOW_SHOTS * SHADOW_LANES };
+enum {
+    SHADOW_SHOTS = 2 * RENDER_TILE_PIXELS / SHADOW_LANES,
+    SHADOW_SHOT_RAYS = SHADOW_SHOTS * SHADOW_LANES
+};
 
 typedef struct shadow_batch {
     int around; /* the number of the environment's source, to which rays diverge; -1: none */

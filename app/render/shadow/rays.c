@@ -169,7 +169,7 @@ static void add_shot(const shadow_shot *shot, int around, int sets, shadow_group
     shadow_lanes weight;
     for (int set = 0; set < sets; set++) {
         for (int i = 0; i < SHADOW_LANES; i++)
-            weight[i] = sets == 1 || (shot->source[i] == around) == (set == sets - 1) ? 1 : 0;
+            weight[i] = set == (shot->source[i] == around ? sets - 1 : 0) ? 1 : 0;
         add_results(shot, group->footprint, weight, group->sums[set]);
     }
 }

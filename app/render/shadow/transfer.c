@@ -108,12 +108,12 @@ static lmp_rgb reflected_by(const transfer *t, size_t surfel, lmp_rgb indirect) 
 }
 
 /* Finds the radiance that surfels reflect. */
-static void find_radiance(const transfer *t, lmp_rgb *radiance) {
+static void find_radiance(const transfer *t) {
     const transfer_layer *surfels = &t->baked->layers[TRANSFER_SURFELS];
     const size_t count = surfels->points.count;
-    lmp_transfer_copy_irradiance_n(surfels->transfer, 0, count, lmp_rgb_array_of(radiance));
+    lmp_transfer_copy_irradiance_n(surfels->transfer, 0, count, lmp_rgb_array_of(t->radiance));
     for (size_t i = 0; i < count; i++)
-        radiance[i] = reflected_by(t, i, radiance[i]);
+        t->radiance[i] = reflected_by(t, i, t->radiance[i]);
 }
 
 /* Lets light bounce so often between a layer's points. */
@@ -138,7 +138,7 @@ static bool bounce(const transfer *t) {
         return true;
     if (!iterate(t, TRANSFER_SURFELS, t->settings.bounces - 1, &by_lights))
         return false;
-    find_radiance(t, t->radiance);
+    find_radiance(t);
     return iterate(t, TRANSFER_RECEIVERS, 1, &by_surfels) &&
            iterate(t, TRANSFER_SURFELS, 1, &by_lights);
 }

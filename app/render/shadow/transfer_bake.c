@@ -2,7 +2,6 @@
 #include "app/render/shadow/transfer_bake.h"
 
 #include "app/render/shadow/transfer_receivers.h"
-
 #include "app/scene/bake.h"
 
 #include <stdlib.h>

@@ -24,9 +24,7 @@ static bool is_same(const transfer_cell *a, const transfer_cell *b) {
 
 /* Returns the place of a cell in the table, or the free one where it would be. */
 static transfer_cell *place_of(const transfer_cells *c, const transfer_cell *at) {
-    const uint32_t hash = (uint32_t)at->x * 0x9e3779b1u ^ (uint32_t)at->y * 0x85ebca6bu ^
-                          (uint32_t)at->z * 0xc2b2ae35u;
-    uint32_t i = (hash ^ hash >> 15) & c->mask;
+    uint32_t i = transfer_hash(at->x, at->y, at->z) & c->mask;
     while (c->table[i].end > 0 && !is_same(&c->table[i], at))
         i = (i + 1) & c->mask;
     return &c->table[i];

@@ -11,6 +11,12 @@ typedef struct transfer_cell {
     uint32_t begin, end;
 } transfer_cell;
 
+static inline uint32_t transfer_hash(int32_t x, int32_t y, int32_t z) {
+    const uint32_t hash =
+        (uint32_t)x * 0x9e3779b1u ^ (uint32_t)y * 0x85ebca6bu ^ (uint32_t)z * 0xc2b2ae35u;
+    return hash ^ hash >> 15;
+}
+
 typedef struct transfer_cells {
     const transfer_surfels *surfels; /* those of a cell one after another, near cells near */
     float size;                      /* the edge of a cell */

@@ -135,9 +135,9 @@ uint32_t transfer_source(const transfer_view *view, lmp_vec3 from, lmp_vec3 dire
 
 /* --- lists ------------------------------------------------------------------------------------ */
 
-static void fill_hits(const transfer_task *task, size_t index, float lift, uint32_t *hits) {
+static void fill_hits(const transfer_task *task, size_t index, uint32_t *hits) {
     const lmp_transfer_surfel *surfel = &task->from->cells->surfels->at[index];
-    const lmp_vec3 from = vec_add(surfel->position, vec_scale(surfel->normal, lift));
+    const lmp_vec3 from = start_of(task->from->scene, surfel);
     for (size_t k = 0; k < task->rays; k++) {
         const uint32_t source = transfer_source(task->to, from, direction_of(surfel, index, k));
         hits[k] = source == LMP_TRANSFER_NONE ? source : (uint32_t)task->first + source;
@@ -162,7 +162,6 @@ bool transfer_lists_create(const transfer_task *task, const lmp_host *host, tran
     const transfer_view *view = task->from;
     const size_t count = view->cells->surfels->count;
     const ptrdiff_t groups = (ptrdiff_t)((count + TOGETHER - 1) / TOGETHER);
-    const float lift = (float)trace_lift(view->scene);
     ptrdiff_t done = 0;
     lists->hits = malloc((count * task->rays + 1) * sizeof *lists->hits);
     lists->links = malloc((count * TRANSFER_LINKS + 1) * sizeof *lists->links);
@@ -172,7 +171,7 @@ bool transfer_lists_create(const transfer_task *task, const lmp_host *host, tran
     for (ptrdiff_t group = 0; group < groups; group++) {
         for (size_t i = (size_t)group * TOGETHER; i < count && i < (size_t)(group + 1) * TOGETHER;
              i++) {
-            fill_hits(task, i, lift, lists->hits + i * task->rays);
+            fill_hits(task, i, lists->hits + i * task->rays);
             fill_links(view, i, lists->links + i * TRANSFER_LINKS);
         }
 #pragma omp critical

@@ -33,9 +33,7 @@ typedef struct spread {
 /* --- cells ------------------------------------------------------------------------------------ */
 
 static uint32_t hash_of(const spread *s, int32_t x, int32_t y, int32_t z) {
-    const uint32_t hash =
-        (uint32_t)x * 0x9e3779b1u ^ (uint32_t)y * 0x85ebca6bu ^ (uint32_t)z * 0xc2b2ae35u;
-    return (hash ^ hash >> 15) & s->mask;
+    return transfer_hash(x, y, z) & s->mask;
 }
 
 static int32_t cell_of(const spread *s, float x) {
@@ -75,10 +73,14 @@ static bool grow(spread *s) {
     return at && next;
 }
 
+static bool is_full(const spread *s) {
+    return s->receivers->count == RECEIVERS_MAX;
+}
+
 /* Adds a receiver where it has room, unless it is buried. */
 static bool add(spread *s, const lmp_transfer_surfel *new) {
     const size_t count = s->receivers->count;
-    if (count == RECEIVERS_MAX || !has_room(s, new) ||
+    if (is_full(s) || !has_room(s, new) ||
         transfer_is_buried(s->world, s->bvh, new, s->tried, s->least / 10))
         return true;
     if (count == s->capacity && !grow(s))
@@ -93,17 +95,12 @@ static bool add(spread *s, const lmp_transfer_surfel *new) {
 
 /* --- triangles -------------------------------------------------------------------------------- */
 
-/* Returns a point of a triangle; points follow Roberts' sequence R2, folded into it. */
+/* Returns the next point of a triangle. */
 static lmp_vec3 draw_point(const spread *s, const lmp_vec3 corners[3]) {
-    double xy[2];
-    transfer_sequence((double)s->tried, 0, xy);
-    float u = (float)(xy[0] - floor(xy[0])), v = (float)(xy[1] - floor(xy[1]));
-    if (u + v > 1) {
-        u = 1 - u;
-        v = 1 - v;
-    }
-    return vec_add(corners[0], vec_add(vec_scale(vec_sub(corners[1], corners[0]), u),
-                                       vec_scale(vec_sub(corners[2], corners[0]), v)));
+    float weights[3];
+    transfer_weights(s->tried, weights);
+    return vec_add(corners[0], vec_add(vec_scale(vec_sub(corners[1], corners[0]), weights[1]),
+                                       vec_scale(vec_sub(corners[2], corners[0]), weights[2])));
 }
 
 static float spacing_at(const spread *s, const lmp_transfer_surfel *place) {
@@ -136,7 +133,7 @@ static bool spread_over(spread *s, const lmp_vec3 corners[3], lmp_vec3 normal) {
     const double area = 0.5 * (double)vec_length(vec_cross(vec_sub(corners[1], corners[0]),
                                                            vec_sub(corners[2], corners[0])));
     const double smallest = (double)s->least * (double)s->least / TRIES;
-    if (area < smallest && (s->area += area) < smallest)
+    if (is_full(s) || (area < smallest && (s->area += area) < smallest))
         return true;
     s->area = 0;
     s->tried++;

@@ -12,6 +12,19 @@ void transfer_sequence(double k, double shift, double xy[2]) {
     xy[1] = 0.5698402909980532 * k + 0.4142135623730950 * shift;
 }
 
+void transfer_weights(size_t k, float weights[3]) {
+    double xy[2];
+    transfer_sequence((double)k, 0, xy);
+    float u = (float)(xy[0] - floor(xy[0])), v = (float)(xy[1] - floor(xy[1]));
+    if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+    }
+    weights[0] = 1 - u - v;
+    weights[1] = u;
+    weights[2] = v;
+}
+
 float transfer_face(float corners[3][3], lmp_vec3 *normal) {
     const lmp_vec3 p = vec_load(corners[0]);
     const lmp_vec3 twice =
@@ -75,21 +88,14 @@ static double sided_area(const scene *world) {
     return area;
 }
 
-/* Adds a surfel, on both sides if the material has two. Points of a triangle follow Roberts'
- * sequence R2, folded into it. */
+/* Adds a surfel, on both sides if the material has two. */
 static void add_point(const scene *world, const lmp_rgb *albedos, size_t instance,
                       uint32_t triangle, lmp_vec3 normal, transfer_surfels *s) {
     const uint32_t material = scene_instance_material(world, instance);
-    double xy[2];
-    transfer_sequence((double)s->count, 0, xy);
-    float u = (float)(xy[0] - floor(xy[0])), v = (float)(xy[1] - floor(xy[1]));
     scene_vertex corners[3];
+    float weights[3];
     scene_triangle(world, instance, triangle, corners);
-    if (u + v > 1) {
-        u = 1 - u;
-        v = 1 - v;
-    }
-    const float weights[3] = { 1 - u - v, u, v };
+    transfer_weights(s->count, weights);
     lmp_vec3 position = { 0, 0, 0 };
     for (int i = 0; i < 3; i++)
         position = vec_add(position, vec_scale(vec_load(corners[i].position), weights[i]));

@@ -29,6 +29,9 @@ bool transfer_surfels_make(const scene *world, const lmp_rgb *albedos, transfer_
  * `shift` so that surfels do not share a pattern. */
 void transfer_sequence(double k, double shift, double xy[2]);
 
+/* Finds the weights of the corners for point k of a triangle: the sequence, folded into it. */
+void transfer_weights(size_t k, float weights[3]);
+
 /* Finds the unit normal of a triangle's face; returns its area. */
 float transfer_face(float corners[3][3], lmp_vec3 *normal);
 
