@@ -63,6 +63,19 @@ grep -q '"samples": 1,' "$WORK/stats" || fail "--stats times more than one sampl
 "$PROGRAM" render builtin:balls --size 8x8 --samples 3 --stats --repeat 1 -o "$WORK/s.png" >"$WORK/stats"
 grep -q '"samples": 3,' "$WORK/stats" || fail "--stats does not time the samples of --samples"
 
+# Samples that repeat a pixel's first one count as often as they occur, also beside others of the pixel: where nothing
+# is in the way of light, shadows, which add each sample, change nothing. The materials are hard to tell apart.
+printf '\000\000\002\000\000\000\000\000\000\000\000\000\001\000\001\000\030\000\377\377\377' >"$WORK/white.tga"
+printf 'newmtl a\nKd 0.5 0.5 0.5\nmap_Kd white.tga\nnewmtl b\nKd 0.55 0.55 0.55\nmap_Kd white.tga\n' >"$WORK/two.mtl"
+printf 'mtllib two.mtl\nv -2 0 -2\nv 2 0 -2\nv 2 0 2.3\nv -2 0 2\nusemtl a\nf 1 4 3\nusemtl b\nf 1 3 2\n' >"$WORK/two.obj"
+echo '{ "lights": [ { "position": [0, 3, 0], "radius": 0.1, "radiance": [100, 100, 100] } ] }' >"$WORK/above.json"
+for shadows in shadows no-shadows; do
+    "$PROGRAM" render "$WORK/two.obj" --lights "$WORK/above.json" --environment none --device cpu $small --samples 8 \
+        --exposure 0.1 --eye 0,2,0.01 --target 0,0,0 --$shadows -o "$WORK/$shadows.exr"
+done
+"$PROGRAM" compare "$WORK/shadows.exr" "$WORK/no-shadows.exr" --fail-above rmse=1e-7 >/dev/null ||
+    fail "samples that repeat the first one do not count"
+
 # A field draws what sums do, and is described.
 "$PROGRAM" render builtin:balls $small --method zonal --device cpu -o "$WORK/sums.exr"
 "$PROGRAM" render builtin:balls $small --method field --device cpu --field-grid 12x9x12 --field-error 0.02 --stats --repeat 1 \
