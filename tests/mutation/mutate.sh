@@ -27,6 +27,8 @@ subjects() {
     done <<'END' | awk '!seen[$1]++'
 src/base/*.c unit.base unit.host unit.sh
 src/sh/double.c unit.double
+src/sh/euler.c unit.rotation unit.assertions
+src/sh/half.c unit.half unit.assertions
 src/sh/image.c unit.image unit.assertions
 src/sh/product.c unit.product unit.assertions
 src/sh/project.c unit.project unit.assertions
@@ -36,9 +38,14 @@ src/sh/window.c unit.window unit.assertions
 src/sh/*.c unit.sh unit.assertions
 src/sphere/double.c unit.double
 src/sphere/*.c unit.sphere unit.edges unit.assertions
-src/light/*.c unit.light unit.sphere unit.edges unit.assertions
+src/light/gradient.c unit.light_gradient unit.assertions
+src/light/loop_gradient.c unit.light_gradient unit.assertions
+src/light/light_n.c unit.light_n unit.light unit.assertions
+src/light/*.c unit.light unit.area unit.light_gradient unit.sphere unit.edges unit.assertions
 src/lobe/*.c unit.lobe unit.ggx_lobes unit.assertions
+src/probe/irradiance.c unit.irradiance unit.probe unit.probe_engines unit.assertions
 src/probe/*.c unit.probe unit.probe_engines unit.peers unit.peers_engines unit.assertions
+src/shade/area.c unit.area_shade unit.assertions
 src/shade/*.c unit.shade unit.shade_n unit.coat unit.sheen unit.environment unit.assertions
 src/field/*.c unit.field_bytes unit.field unit.field_changes unit.field_shade unit.assertions
 src/preintegrated/brdf*.c unit.preintegrated_brdf unit.preintegrated_brdf_bytes unit.assertions
@@ -46,10 +53,12 @@ src/preintegrated/*.c unit.preintegrated_lobe unit.assertions
 src/brdf/rgl*.c unit.brdf_rgl unit.brdf_rgl_written unit.brdf_rgl_refusals unit.read_back unit.assertions
 src/brdf/sheen.c unit.brdf_sheen unit.assertions
 src/brdf/*.c unit.brdf_table_bytes unit.brdf unit.brdf_table unit.brdf_files unit.assertions
+src/transfer/*.c unit.transfer unit.transfer_refused unit.transfer_room unit.assertions
 src/kernels/*.h kernels.kernels kernels.batch
-app/scene/trace/trace.c reference.estimator reference.render reference.texture
+app/scene/trace/blend.c program.blend
+app/scene/trace/trace.c program.trace reference.estimator reference.render reference.texture
 app/scene/texture_at.c reference.texture reference.estimate
-app/scene/trace/*.c reference.texture reference.estimate
+app/scene/trace/*.c program.trace program.instances reference.texture reference.estimate
 app/truth/reference_part.c reference.part
 app/truth/reference_sheen.c reference.sheen
 app/truth/reference_ggx.c reference.ggx reference.layers
@@ -58,6 +67,8 @@ app/image/compare.c reference.compare
 app/image/flip.c reference.compare
 app/image/ssim.c reference.compare
 app/render/shadow/around.c program.around gpu.shadow
+app/render/shadow/batch.c program.shadow_batch gpu.shadow
+app/render/shadow/transfer*.c reference.bounced
 app/render/shadow/*.c program.shadow gpu.shadow gpu.shadow_filter
 app/render/shade*.c gpu.table gpu.field gpu.shade gpu.draw
 app/render/gl/table.c gpu.table gpu.draw

@@ -251,7 +251,6 @@ static void nothing_leaks_into_a_closed_room(void **state) {
     close_room(&r);
 }
 
-/* Rays are cast anew, not read from the user's cache. */
 /* --- in probes -------------------------------------------------------------------------------- */
 
 enum { PROBES = 8, VALUES = 27 };
@@ -333,6 +332,7 @@ static void probes_see_the_floor_below_them(void **state) {
     }
 }
 
+/* Rays are cast anew, not read from the user's cache. */
 static int make_folder(void **state) {
     const int made = folder_make(state);
     setenv("XDG_CACHE_HOME", in_folder("cache"), 1);
