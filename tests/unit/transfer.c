@@ -60,6 +60,36 @@ static void a_closed_room_of_one_albedo_keeps_the_geometric_series(void **test) 
     }
 }
 
+/* The smallest of transfers: one surfel, whose rays all hit it. */
+static void a_single_surfel_lights_itself(void **test) {
+    static transfer_lists l;
+    (void)test;
+    transfer_draw(1, 1, &l);
+    draw_hits(&l, 0, 1, 0, 1);
+    set_surfels(&l, 0, 1, 0.5f, 3);
+    lmp_transfer_desc desc = transfer_desc_of(&l, 1);
+    desc.link_count = desc.sky_count = desc.probe_count = 0;
+    const lmp_transfer_lighting lighting = { .direct = l.direct };
+    lmp_transfer *transfer = transfer_make(&desc);
+    transfer_iterate(transfer, 40, &lighting);
+    CHECK_WITHIN(error_from(transfer, 0, 1, 3), 1e-6);
+    lmp_transfer_destroy(transfer);
+}
+
+/* No surfel and no probe may be asked for behind the last one. */
+static void nothing_is_read_behind_the_last(void **test) {
+    static transfer_lists l;
+    lmp_rgb rgb = { 1, 2, 3 };
+    (void)test;
+    transfer_draw(SURFELS, 1, &l);
+    const lmp_transfer_desc desc = transfer_desc_of(&l, SURFELS);
+    lmp_transfer *transfer = transfer_make(&desc);
+    lmp_transfer_copy_irradiance_n(transfer, SURFELS, 0, lmp_rgb_array_of(&rgb));
+    lmp_transfer_eval_probe_n(transfer, PROBES, 0, (lmp_sh_array) { .at = &rgb.r });
+    assert_true(rgb.r == 1 && rgb.g == 2 && rgb.b == 3);
+    lmp_transfer_destroy(transfer);
+}
+
 /* Two infinite plates see nothing but each other: E_a = b (F_b + E_b), E_b = a (F_a + E_a). */
 static void two_plates_reflect_each_other(void **test) {
     static transfer_lists l;
@@ -410,6 +440,8 @@ static void bits_depend_on_neither_threads_nor_machine(void **test) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_closed_room_of_one_albedo_keeps_the_geometric_series),
+        cmocka_unit_test(a_single_surfel_lights_itself),
+        cmocka_unit_test(nothing_is_read_behind_the_last),
         cmocka_unit_test(two_plates_reflect_each_other),
         cmocka_unit_test(iterations_solve_the_radiosity_equation),
         cmocka_unit_test(the_remainder_bounds_the_error_and_stops),
