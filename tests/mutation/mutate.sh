@@ -38,6 +38,7 @@ src/sh/window.c unit.window unit.assertions
 src/sh/*.c unit.sh unit.assertions
 src/sphere/double.c unit.double
 src/sphere/*.c unit.sphere unit.edges unit.assertions
+src/light/flat.c unit.area_shade unit.assertions
 src/light/gradient.c unit.light_gradient unit.assertions
 src/light/loop_gradient.c unit.light_gradient unit.assertions
 src/light/light_n.c unit.light_n unit.light unit.assertions

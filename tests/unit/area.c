@@ -2,6 +2,7 @@
 /* Lights that are areas, against quadrature over their surface, and what follows from what they
  * are.
  */
+#include "src/light/angle.h"
 #include "tests/oracle/areas.h"
 
 #include <lampion/cpu.h>
@@ -485,6 +486,19 @@ static void power_and_intensity_follow_from_the_surface(void **state) {
                  1e-6);
 }
 
+/* The angles that outlines are summed from, against the C library's, in every quadrant and near the
+ * axes. */
+static void angles_are_exact_in_double(void **state) {
+    (void)state;
+    assert_true(lmpi_angle(0, 0) == 0);
+    for (int i = 0; i < 100000; i++) {
+        const double near = pow(10, check_random_between(-12, 0)), far = 1 - near * near;
+        const double x = (i & 1 ? 1 : -1) * (i & 4 ? near : far);
+        const double y = (i & 2 ? 1 : -1) * (i & 4 ? far : near);
+        CHECK_WITHIN(fabs(lmpi_angle(y, x) - atan2(y, x)), 2e-15);
+    }
+}
+
 static void fields_refuse_areas(void **state) {
     (void)state;
     const lmp_field_desc desc = { .bands = 2, .nodes = { 4, 4, 4 } };
@@ -569,6 +583,7 @@ int main(void) {
         cmocka_unit_test(every_instruction_set_gives_the_same_bits),
         cmocka_unit_test(beyond_its_range_an_area_gives_no_more),
         cmocka_unit_test(power_and_intensity_follow_from_the_surface),
+        cmocka_unit_test(angles_are_exact_in_double),
         cmocka_unit_test(fields_refuse_areas),
         cmocka_unit_test(texels_say_what_an_area_is),
         cmocka_unit_test(texels_begin_at_the_middle),

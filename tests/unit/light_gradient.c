@@ -98,7 +98,8 @@ static void areas_of_many_bands_change_as_quadrature_does(void **state) {
     check_areas(1, check_count(16, BANDS_MANY), 1e-4);
 }
 
-/* Far away an area is a point of its size: solid angle S / d², which changes by -2 / d of it. */
+/* Far away an area is a point of its size: solid angle S / d², which changes by -2 / d of it along
+ * the way to it, and across by its direction. */
 static void far_areas_change_as_points_do(void **state) {
     (void)state;
     for (int k = 0; k < AREA_KINDS; k++)
@@ -116,6 +117,7 @@ static void far_areas_change_as_points_do(void **state) {
                 (dot_of(d, (lmp_vec3) { gradient[0], gradient[4], gradient[8] })) / length_of(d);
             const double most = 3 * pow(10, -exponent); /* of what is not a point */
             CHECK_WITHIN(fabs(along * away / (double)sh[0] + 2), 1e-4 + most);
+            check(oracle_area_project, &light, point, 3, 1e-3 * away, 1e-4 + most);
         }
 }
 
