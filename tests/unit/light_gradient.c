@@ -99,7 +99,7 @@ static void areas_of_many_bands_change_as_quadrature_does(void **state) {
 }
 
 /* Far away an area is a point of its size: solid angle S / d², which changes by -2 / d of it along
- * the way to it, and across by its direction. */
+ * the way to it. Across, the direction changes as well. */
 static void far_areas_change_as_points_do(void **state) {
     (void)state;
     for (int k = 0; k < AREA_KINDS; k++)

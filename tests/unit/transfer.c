@@ -76,8 +76,8 @@ static void a_single_surfel_lights_itself(void **test) {
     lmp_transfer_destroy(transfer);
 }
 
-/* No surfel and no probe may be asked for behind the last one. */
-static void nothing_is_read_behind_the_last(void **test) {
+/* A range of none may begin behind the last surfel or probe; nothing is written. */
+static void an_empty_range_may_begin_behind_the_last(void **test) {
     static transfer_lists l;
     lmp_rgb rgb = { 1, 2, 3 };
     (void)test;
@@ -441,7 +441,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_closed_room_of_one_albedo_keeps_the_geometric_series),
         cmocka_unit_test(a_single_surfel_lights_itself),
-        cmocka_unit_test(nothing_is_read_behind_the_last),
+        cmocka_unit_test(an_empty_range_may_begin_behind_the_last),
         cmocka_unit_test(two_plates_reflect_each_other),
         cmocka_unit_test(iterations_solve_the_radiosity_equation),
         cmocka_unit_test(the_remainder_bounds_the_error_and_stops),
